@@ -1,5 +1,5 @@
-//! Auxiliary images of what lies at the centre of every pixel: distance, normal and primitive, and where
-//! wanted what materials and meshes say of it.
+//! Auxiliary images of the first hits at pixel centres: distance, normal and primitive, and on request the
+//! properties of materials and meshes.
 
 use rasray_ads::{Domain, RayQueue};
 use rasray_gpu::{Buffer, Device, Recorder};
@@ -15,7 +15,7 @@ use crate::{
     kernels::{Bindings, Kernel, OfPixels, WaveConstants, binding, camera_constants, device_buffer},
 };
 
-/// Traces the rays of pixel centres and keeps what they hit, of one band at a time. One trace per wave;
+/// Traces the rays of pixel centres and keeps their hits, for one band at a time. One trace per wave;
 /// `Wave::sample` is not used.
 #[derive(Debug)]
 pub struct AovPass {
@@ -26,11 +26,11 @@ pub struct AovPass {
     bindings: Bindings,
     primary: Kernel,
     store: Kernel,
-    /// Buffer and kernel of the materials and meshes of hits, where these are wanted.
+    /// Buffer and kernel of the materials and meshes of hits, if these are requested.
     surfaces: Option<(Buffer, Kernel)>,
 }
 
-/// [`AovSurface`] per pixel of the band, where they are wanted.
+/// Binding of the [`AovSurface`] per pixel of the band, if these are requested.
 const SURFACES: u32 = 9;
 
 impl AovPass {
@@ -38,8 +38,8 @@ impl AovPass {
     /// per wave.
     ///
     /// # Errors
-    /// `SizesDiffer` where bands and view have not as many pixels, sizes that do not fit, out of memory, or
-    /// the device refuses a pipeline.
+    /// `SizesDiffer` if bands and view have different numbers of pixels; an error for sizes that do not fit,
+    /// out of memory, or if the device refuses a pipeline.
     pub fn new(
         device: &Device,
         scene: &GpuScene,
@@ -49,10 +49,11 @@ impl AovPass {
         Self::make(device, scene, (bands, false), wave_capacity)
     }
 
-    /// Makes the pass with materials and meshes of each pixel, in bands that are small enough for that.
+    /// Makes the pass with materials and meshes of each pixel, in bands that are small enough for these
+    /// records.
     ///
     /// # Errors
-    /// As [`AovPass::new`].
+    /// Errors of [`AovPass::new`].
     pub fn with_surfaces(
         device: &Device,
         scene: &GpuScene,
@@ -108,7 +109,7 @@ impl AovPass {
     /// Records the pixels of a wave.
     ///
     /// # Errors
-    /// The wave does not fit the queue or the image, or the structure was made without a scene.
+    /// An error if the wave does not fit the queue or the image, or the structure was made without a scene.
     pub fn record_wave(
         &self,
         recorder: &mut Recorder<'_>,
@@ -126,17 +127,17 @@ impl AovPass {
         Ok(())
     }
 
-    /// Bands that it traces one after the other: those that were asked for, or smaller ones.
+    /// Returns the bands that the pass traces one after the other: those of the caller, or smaller ones.
     pub fn bands(&self) -> Bands {
         self.bands
     }
 
-    /// The queue, for its counters.
+    /// Returns the queue, for its counters.
     pub fn queue(&self) -> &RayQueue {
         &self.queue
     }
 
-    /// Bytes of all buffers.
+    /// Returns the bytes of all buffers.
     pub fn bytes(&self) -> u64 {
         self.pixels.size()
             + self.surfaces.as_ref().map_or(0, |(buffer, _)| buffer.size())
@@ -146,16 +147,16 @@ impl AovPass {
     /// Downloads the pixels of the band whose waves were traced last, `count` of them: submits and waits.
     ///
     /// # Errors
-    /// More pixels than a band has; the device is lost or out of memory.
+    /// An error if `count` is larger than a band, or the device is lost or out of memory.
     pub fn read(&self, device: &Device, count: u32) -> Result<Vec<AovPixel>, IntegratorError> {
         Ok(device.download_as(&self.pixels, 0, count as usize)?)
     }
 
-    /// Downloads what materials and meshes say of the same pixels; nothing where that was not wanted. Submits
-    /// and waits.
+    /// Downloads the materials and meshes of the same pixels; empty if they were not requested. Submits and
+    /// waits.
     ///
     /// # Errors
-    /// As [`AovPass::read`].
+    /// Errors of [`AovPass::read`].
     pub fn read_surfaces(&self, device: &Device, count: u32) -> Result<Vec<AovSurface>, IntegratorError> {
         match &self.surfaces {
             Some((buffer, _)) => Ok(device.download_as(buffer, 0, count as usize)?),

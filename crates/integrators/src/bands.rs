@@ -1,4 +1,4 @@
-//! Bands: how the pixels of an image are divided among buffers.
+//! Bands: the division of an image's pixels among buffers.
 
 use std::ops::Range;
 
@@ -10,20 +10,21 @@ use crate::{IntegratorError, Wave};
 /// Maximum number of pixels of an image: indices of pixels, and of their three channels, fit in 32 bits.
 pub const PIXEL_LIMIT: u32 = 1 << 30;
 
-/// Bytes of the larger of the records that a film and the images beside it have per pixel.
+/// Bytes of the larger of the two records per pixel: that of a film and that of the images beside it.
 const RECORD_BYTES: u64 = size_of::<AovPixel>() as u64;
 
-/// The bands of an image: consecutive pixels whose records are in one buffer, as many as a device binds. All
-/// but the last have as many pixels. A wave lies in one band; no picture depends on where bands end.
+/// Bands of an image: consecutive pixels whose records are in one buffer, as many as a device can bind. All
+/// but the last have equally many pixels. A wave lies in one band; pictures do not depend on the borders of
+/// bands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Bands {
     pixels: u32,
-    /// Pixels of each but the last: at least 1.
+    /// Number of pixels of each band but the last: at least 1.
     most: u32,
 }
 
 impl Bands {
-    /// As few as the device allows.
+    /// Makes as few bands as the device allows.
     ///
     /// # Errors
     /// `ImageSize` for an image without pixels or with too many.
@@ -31,7 +32,8 @@ impl Bands {
         Ok(Self::one([width, height])?.of_records(device, RECORD_BYTES))
     }
 
-    /// Bands with no more pixels than a device binds records with so many bytes, at least 1.
+    /// Returns bands of at most as many pixels as fit into one binding of the device with records of
+    /// `record_bytes` bytes, at least 1.
     #[must_use]
     pub(crate) fn of_records(self, device: &Device, record_bytes: u64) -> Self {
         let limits = device.limits();
@@ -39,10 +41,10 @@ impl Bands {
         self.at_most(u32::try_from(bytes / record_bytes).unwrap_or(u32::MAX))
     }
 
-    /// One for all pixels, whether or not a device binds it.
+    /// Makes one band for all pixels, whether or not a device can bind it.
     ///
     /// # Errors
-    /// As [`Bands::new`].
+    /// Errors of [`Bands::new`].
     pub(crate) fn one([width, height]: [u32; 2]) -> Result<Self, IntegratorError> {
         match width.checked_mul(height) {
             Some(pixels) if pixels > 0 && pixels <= PIXEL_LIMIT => Ok(Self { pixels, most: pixels }),
@@ -50,28 +52,28 @@ impl Bands {
         }
     }
 
-    /// Bands with no more pixels than `most`, at least 1.
+    /// Returns bands of at most `most` pixels, at least 1.
     #[must_use]
     pub fn at_most(self, most: u32) -> Self {
         Self { most: self.most.min(most).max(1), ..self }
     }
 
-    /// Pixels in all.
+    /// Returns the number of pixels in all.
     pub fn pixel_count(self) -> u32 {
         self.pixels
     }
 
-    /// Most pixels of a band.
+    /// Returns the largest number of pixels of a band.
     pub(crate) fn most(self) -> u32 {
         self.most
     }
 
-    /// The band of a pixel.
+    /// Returns the band of a pixel.
     pub(crate) fn of(self, pixel: u32) -> usize {
         (pixel / self.most) as usize
     }
 
-    /// Numbers of the pixels of each.
+    /// Iterates over the ranges of pixel numbers of the bands.
     pub fn ranges(self) -> impl Iterator<Item = Range<u32>> + Clone {
         (0..self.pixels.div_ceil(self.most)).map(move |band| {
             let first = band * self.most;
@@ -86,7 +88,7 @@ impl Bands {
         samples.into_iter().flat_map(of_sample)
     }
 
-    /// An error unless the wave lies in one band and has as many pixels as there are slots.
+    /// Returns an error unless the wave lies in one band and has no more pixels than slots.
     pub(crate) fn check(self, wave: Wave, capacity: u32) -> Result<(), IntegratorError> {
         if wave.pixel_count == 0 || wave.pixel_count > capacity {
             return Err(IntegratorError::WaveSize { wave, capacity });

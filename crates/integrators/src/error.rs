@@ -13,40 +13,40 @@ pub enum IntegratorError {
     /// A wave has no pixels, or more than the queues have slots.
     #[error("the wave at pixel {} has {} pixels; from 1 to {capacity} are possible: cut it smaller", wave.first_pixel, wave.pixel_count)]
     WaveSize {
-        /// The wave asked for.
+        /// The requested wave.
         wave: Wave,
-        /// Slots in the queues.
+        /// Number of slots of the queues.
         capacity: u32,
     },
     /// A wave reaches past the last pixel.
     #[error("the wave of {} pixels at pixel {} leaves the image of {pixels} pixels", wave.pixel_count, wave.first_pixel)]
     WaveOutsideImage {
-        /// The wave asked for.
+        /// The requested wave.
         wave: Wave,
-        /// Pixels of the image.
+        /// Number of pixels of the image.
         pixels: u32,
     },
-    /// A wave has pixels whose records are in different buffers.
+    /// The records of a wave's pixels are in different buffers.
     #[error("the wave of {} pixels at pixel {} is of two bands: cut it at multiples of {most} pixels (`Bands::waves`)", wave.pixel_count, wave.first_pixel)]
     WaveOfTwoBands {
-        /// The wave asked for.
+        /// The requested wave.
         wave: Wave,
-        /// Pixels of a band.
+        /// Number of pixels of a band.
         most: u32,
     },
-    /// An image without pixels, or with more than can be numbered.
+    /// The image has no pixels, or more than can be numbered.
     #[error(
         "an image of {width} x {height} pixels cannot be rendered; choose from 1 to {limit} pixels in all"
     )]
     ImageSize {
         /// Pixels per row.
         width: u32,
-        /// Rows.
+        /// Number of rows.
         height: u32,
-        /// Largest product.
+        /// Largest number of pixels.
         limit: u32,
     },
-    /// Film and scene disagree about the image.
+    /// Film and scene have different image sizes.
     #[error("the film has {film:?} pixels, but the scene's view has {view:?}: make both from the same size")]
     SizesDiffer {
         /// Width and height of the film.
@@ -54,42 +54,41 @@ pub enum IntegratorError {
         /// Width and height of the scene's view.
         view: [u32; 2],
     },
-    /// A pixel was listed that the band does not have.
+    /// A listed pixel is outside of the band.
     #[error("pixel {pixel} was listed, of a band from pixel {} to {}", band.start, band.end - 1)]
     NoPixel {
-        /// Its number.
+        /// Number of the pixel.
         pixel: u32,
-        /// Pixels of the band.
+        /// Numbers of the band's pixels.
         band: Range<u32>,
     },
-    /// Some pixels of a film were asked for that has no list of the pixels of such a band.
+    /// Some pixels of a film were requested, but the film has no list of pixels for such a band.
     #[error("the film has no list of pixels of this band: make it with `Film::listed`")]
     NotListed,
-    /// Kernels look surfaces up by hits, and what is traced does not allow that.
+    /// Kernels look surfaces up by hits, and the traced structure does not allow it.
     #[error("surfaces of {structure} are not those of triangles alone: leave out `surfaces_of_hits`")]
     SurfacesOfHits {
-        /// The structure that is traced.
+        /// Name of the structure.
         structure: &'static str,
     },
-    /// Waves without rays, or with more than there can be.
+    /// Waves have no rays, or more than the maximum.
     #[error("a wave of up to {capacity} rays cannot be made: from 1 to {WAVE_LIMIT} are possible")]
     WaveCapacity {
-        /// Slots asked for.
+        /// Requested number of slots.
         capacity: u32,
     },
-    /// An integrator has no such option.
+    /// The integrator has no such option.
     #[error("integrator {integrator} has no option `{option}`")]
     UnknownOption {
-        /// The integrator.
+        /// Name of the integrator.
         integrator: &'static str,
-        /// The option.
+        /// Name of the option.
         option: &'static str,
     },
-    /// An option of an integrator has no such value.
+    /// The option of the integrator has no such value.
     #[error(transparent)]
     Value(#[from] ValueError),
-    /// A scene that is to take the place of the one that kernels were made for can reach code that they leave
-    /// out.
+    /// A new scene for existing kernels needs code that they leave out.
     #[error(
         "kernels were made without code for {missing}: make them for a scene that allows it (`GpuScene::allowing`)"
     )]
@@ -97,39 +96,39 @@ pub enum IntegratorError {
         /// Features of the scene that the kernels lack.
         missing: String,
     },
-    /// Photons of a sample do not fit into what one binding holds.
+    /// The photons of a sample exceed one binding.
     #[error(
         "photons of a sample may take {bytes} bytes, and the device binds {limit}: emit fewer, or let them scatter less often"
     )]
     PhotonBytes {
-        /// Bytes of all that may be stored.
+        /// Bytes of all photons that may be stored.
         bytes: u64,
-        /// Most bytes of a binding.
+        /// Largest number of bytes of a binding.
         limit: u64,
     },
-    /// Surfaces have too many photons around them.
+    /// Some surfaces have too many photons around them.
     #[error(
         "{surfaces} surfaces have more than {limit} photons around them: choose a smaller radius, or emit fewer photons"
     )]
     Crowded {
-        /// Surfaces, of all samples.
+        /// Number of such surfaces, over all samples.
         surfaces: u32,
-        /// Most photons of a surface.
+        /// Largest number of photons of a surface.
         limit: u32,
     },
-    /// First hits of camera rays cannot be found by drawing.
+    /// The device cannot draw the first hits of camera rays.
     #[error("what the camera sees cannot be drawn: {reason}")]
     CannotDraw {
         /// Feature or limit that the device lacks.
         reason: String,
     },
-    /// Surfaces cannot be fetched by drawing.
+    /// The device cannot fetch surfaces by drawing.
     #[error("surfaces cannot be fetched by drawing: {reason}")]
     CannotFetch {
         /// Feature or limit that the device lacks.
         reason: String,
     },
-    /// The Vulkan layer failed.
+    /// A call of the Vulkan layer failed.
     #[error(transparent)]
     Gpu(#[from] rasray_gpu::GpuError),
     /// A structure or a queue failed.

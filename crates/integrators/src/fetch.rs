@@ -1,4 +1,4 @@
-//! Surfaces of hits, fetched by drawing.
+//! Fetch of the surfaces of hits by drawing.
 
 use std::mem::offset_of;
 
@@ -21,13 +21,13 @@ use crate::{IntegratorError, WAVE_LIMIT, integrator::check_capacity, kernels::de
 /// Counts of surfaces that were fetched by drawing, summed over all fetches since the reset, modulo 2^32.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct FetchCounts {
-    /// Hits whose surface was fetched.
+    /// Number of hits whose surface was fetched.
     pub hits: u32,
-    /// Triangles with a hit, each once per fetch: all others are not drawn.
+    /// Number of triangles with a hit, each once per fetch; the other triangles are not drawn.
     pub triangles: u32,
-    /// Pixels of the cube with a hit, each once per fetch.
+    /// Number of pixels of the cube with a hit, each once per fetch.
     pub pixels: u32,
-    /// Hits of the longest list.
+    /// Number of hits of the longest list.
     pub longest: u32,
 }
 
@@ -37,13 +37,13 @@ pub struct FetchCounts {
 /// hits of its pixel that are on its triangle.
 ///
 /// Surfaces are those of the triangles' ids. A hit counts as not ready until its surface is fetched, so that
-/// none is missing without a word.
+/// a missing surface is always reported.
 #[derive(Debug)]
 pub struct Fetch {
     device: Device,
     geometry: Geometry,
     scene: SceneBinding,
-    /// Pixels along a side of a face.
+    /// Number of pixels along a side of a face.
     side: u32,
     header: Buffer,
     pixels: Buffer,
@@ -57,7 +57,7 @@ pub struct Fetch {
 }
 
 impl Fetch {
-    /// Requirements of a device: the floor, and stores of fragment shaders.
+    /// Returns the requirements of a device: the common minimum, and stores of fragment shaders.
     pub fn requirements() -> Requirements {
         let mut requirements = Requirements::floor();
         requirements.required.push(Feature::FragmentStoresAndAtomics);
@@ -67,8 +67,8 @@ impl Fetch {
     /// Makes pipelines for the scene's triangles, and lists for `capacity` hits.
     ///
     /// # Errors
-    /// `CannotFetch` where the device lacks a feature or the faces are larger than it can draw; out of
-    /// memory, or the device refuses a pipeline.
+    /// `CannotFetch` if the device lacks a feature or the faces are larger than it can draw; out of memory,
+    /// or the device refuses a pipeline.
     pub fn new(device: &Device, scene: &GpuScene, capacity: u32) -> Result<Self, IntegratorError> {
         let side = side(check_capacity(capacity)?);
         check(device, side)?;
@@ -122,12 +122,12 @@ impl Fetch {
         })
     }
 
-    /// Fetches surfaces of another scene from the next recording on. Pipelines stay. Nothing changes after an
-    /// error.
+    /// Fetches surfaces of another scene from the next recording on. Pipelines stay. An error changes
+    /// nothing.
     ///
     /// # Errors
-    /// The binding of the scene differs from that of the first in what pipelines are compiled for; out of
-    /// memory.
+    /// An error if the bindings of the two scenes differ in a property that pipelines are compiled for; out
+    /// of memory.
     pub fn set_scene(&mut self, scene: &GpuScene) -> Result<(), IntegratorError> {
         let binding = scene.binding();
         if let Some(what) = self.scene.difference(binding) {
@@ -145,7 +145,7 @@ impl Fetch {
         Ok(())
     }
 
-    /// Records that counts start at 0; once before first use.
+    /// Records that counts start at 0; needed once before first use.
     pub fn record_reset(&self, recorder: &mut Recorder<'_>) {
         recorder.barrier(Access::COMPUTE | Access::TRANSFER, Access::TRANSFER_WRITE);
         recorder.fill(&self.header, 0, self.header.size(), 0);
@@ -155,7 +155,7 @@ impl Fetch {
     /// Records the surfaces of the slots of `domain`, whose hits a structure of this kind found.
     ///
     /// # Errors
-    /// Its hits are not on triangles.
+    /// An error if the structure's hits are not on triangles.
     pub(crate) fn record(
         &self,
         recorder: &mut Recorder<'_>,
@@ -203,7 +203,7 @@ impl Fetch {
         recorder.push_constants(bytes_of(&constants));
     }
 
-    /// Bytes of its own; hits and surfaces are the queue's.
+    /// Returns the bytes of the fetch's own buffers; hits and surfaces belong to the queue.
     pub fn bytes(&self) -> u64 {
         [&self.header, &self.pixels, &self.slots, &self.lists, &self.mask]
             .iter()
@@ -223,22 +223,23 @@ impl Fetch {
     }
 }
 
-/// Pixels along a side of a face: about as many in all as there can be hits.
+/// Returns the number of pixels along a side of a face, such that all faces have about as many pixels as
+/// there can be hits.
 fn side(capacity: u32) -> u32 {
     (1..).find(|side| pixels(*side) >= capacity.min(WAVE_LIMIT).into()).unwrap_or(1)
 }
 
-/// Pixels of all faces.
+/// Returns the number of pixels of all faces.
 fn pixels(side: u32) -> u64 {
     6 * u64::from(side) * u64::from(side)
 }
 
-/// Words of a mask with a bit per triangle, at least one.
+/// Returns the number of words of a mask with a bit per triangle, at least one.
 fn mask_words(geometry: &Geometry) -> u64 {
     u64::from(geometry.triangle_count()).div_ceil(32).max(1)
 }
 
-/// An error unless the device can draw faces of this size.
+/// Returns an error unless the device can draw faces of this size.
 fn check(device: &Device, side: u32) -> Result<(), IntegratorError> {
     let missing = device.lacks(&Fetch::requirements());
     if !missing.is_empty() {

@@ -1,4 +1,4 @@
-//! Radiance summed over samples, pixel by pixel.
+//! Film: radiance summed over samples, pixel by pixel.
 
 use std::ops::Range;
 
@@ -17,10 +17,10 @@ pub struct Film {
     width: u32,
     height: u32,
     bands: Bands,
-    /// Pixels of each band.
+    /// Pixel records of each band.
     pixels: Vec<Buffer>,
     faults: Buffer,
-    /// List of each band.
+    /// List of pixels of each band.
     list: Option<Vec<Buffer>>,
 }
 
@@ -34,10 +34,10 @@ impl Film {
         Self::in_bands(device, [width, height], Bands::new(device, [width, height])?)
     }
 
-    /// Allocates an image in bands of at most so many pixels.
+    /// Allocates an image in bands of at most `most` pixels.
     ///
     /// # Errors
-    /// As [`Film::new`].
+    /// Errors of [`Film::new`].
     pub fn with_bands(device: &Device, width: u32, height: u32, most: u32) -> Result<Self, IntegratorError> {
         let size = [width, height];
         Self::in_bands(device, size, Bands::new(device, size)?.at_most(most))
@@ -54,14 +54,14 @@ impl Film {
         })
     }
 
-    /// Another image, in one band, that counts its faults with those of this one.
+    /// Makes another image, in one band, that counts its faults with those of this one.
     pub(crate) fn beside(&self, device: &Device, size: [u32; 2]) -> Result<Self, IntegratorError> {
         Ok(Self { faults: self.faults.clone(), ..Self::in_bands(device, size, Bands::one(size)?)? })
     }
 
-    /// Adds a list of pixels for each band, which waves of integrators made for this film are ranges of: a
-    /// sample may be taken of some pixels only ([`Film::write_list`]). All are listed, in their order.
-    /// Submits and waits.
+    /// Adds a list of pixels for each band. Waves of integrators made for this film are then ranges of the
+    /// list, so that a sample may be taken of some pixels only ([`Film::write_list`]). At first the list has
+    /// all pixels in their order. Submits and waits.
     ///
     /// # Errors
     /// The device is lost or out of memory.
@@ -74,17 +74,18 @@ impl Film {
         Ok(listed)
     }
 
-    /// The list of pixels of each band, where there is one.
+    /// Returns the list of pixels of each band, if the film has lists.
     pub fn list(&self) -> Option<&[Buffer]> {
         self.list.as_deref()
     }
 
-    /// Says of which pixels of a band the next samples are taken: their numbers, each at most once. Returns
-    /// what waves are ranges of then, in place of all pixels of the band. Submits and waits.
+    /// Sets the pixels of a band of which the next samples are taken, by their numbers, each at most once.
+    /// Returns the range that waves use then in place of all pixels of the band. Submits and waits.
     ///
     /// # Errors
     /// [`IntegratorError::NotListed`] without a list or such a band, [`IntegratorError::NoPixel`] for a
-    /// number beyond the band; more pixels than it has; the device is lost or out of memory.
+    /// number outside of the band; an error for more pixels than the band has, or if the device is lost or
+    /// out of memory.
     pub fn write_list(
         &self,
         device: &Device,
@@ -118,42 +119,42 @@ impl Film {
         recorder.barrier(Access::TRANSFER_WRITE, Access::COMPUTE | Access::TRANSFER);
     }
 
-    /// Division of its pixels among buffers.
+    /// Returns the division of the film's pixels among buffers.
     pub fn bands(&self) -> Bands {
         self.bands
     }
 
-    /// Pixels per row.
+    /// Returns the number of pixels per row.
     pub fn width(&self) -> u32 {
         self.width
     }
 
-    /// Rows.
+    /// Returns the number of rows.
     pub fn height(&self) -> u32 {
         self.height
     }
 
-    /// Pixels in all.
+    /// Returns the number of pixels in all.
     pub fn pixel_count(&self) -> u32 {
         self.bands.pixel_count()
     }
 
-    /// A buffer for each band: [`FilmPixel`] per pixel, row by row from the top left.
+    /// Returns the buffer of each band: [`FilmPixel`] per pixel, row by row from the top left.
     pub fn pixels(&self) -> &[Buffer] {
         &self.pixels
     }
 
-    /// [`FilmFaults`].
+    /// Returns the buffer of [`FilmFaults`].
     pub fn faults(&self) -> &Buffer {
         &self.faults
     }
 
-    /// Bytes of the records of all pixels.
+    /// Returns the bytes of the records of all pixels.
     pub(crate) fn pixel_bytes(&self) -> u64 {
         self.pixels.iter().map(Buffer::size).sum()
     }
 
-    /// Bytes of all buffers.
+    /// Returns the bytes of all buffers.
     pub fn bytes(&self) -> u64 {
         let list = self.list.iter().flatten().map(Buffer::size).sum::<u64>();
         self.pixel_bytes() + self.faults.size() + list
@@ -179,7 +180,7 @@ impl Film {
         Ok(all)
     }
 
-    /// Hands out sums and counts band by band, so that no copy of all is needed: submits and waits.
+    /// Passes sums and counts to `take` band by band, so that no copy of all is needed: submits and waits.
     ///
     /// # Errors
     /// The device is lost or out of memory.
@@ -203,7 +204,7 @@ impl Film {
     }
 }
 
-/// A buffer per band with a record per pixel.
+/// Makes a buffer per band with a record per pixel.
 fn band_buffers<T>(device: &Device, name: &str, bands: Bands) -> Result<Vec<Buffer>, IntegratorError> {
     bands.ranges().map(|band| device_buffer(device, name, (band.len() * size_of::<T>()) as u64)).collect()
 }

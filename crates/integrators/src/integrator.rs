@@ -1,4 +1,4 @@
-//! The interface of all integrators.
+//! Interface of all integrators.
 
 use rasray_ads::RayQueue;
 use rasray_gpu::{Device, PassTiming, Recorder, Timing};
@@ -10,25 +10,25 @@ use crate::{Film, IntegratorError, Traced, WAVE_LIMIT, Wave, wave_capacity};
 /// Inputs that an integrator is made from.
 #[derive(Clone, Copy, Debug)]
 pub struct IntegratorDesc<'a> {
-    /// Device of pipelines and buffers.
+    /// Device that holds pipelines and buffers.
     pub device: &'a Device,
-    /// The scene that is shaded.
+    /// Scene that is shaded.
     pub scene: &'a GpuScene,
     /// Film that samples are added to; as large as the scene's view.
     pub film: &'a Film,
-    /// Slots of the queues, from 1 to [`WAVE_LIMIT`]. Fewer than the image has pixels means
+    /// Number of slots of the queues, from 1 to [`WAVE_LIMIT`]. Fewer slots than the image has pixels mean
     /// several waves per sample.
     pub wave_capacity: u32,
     /// Shading code that is compiled in: [`GpuScene::features`], or [`ShadingFeatures::ALL`].
     pub features: ShadingFeatures,
-    /// Kernels that shade look up the surfaces of hits themselves, which saves storing and reading them,
-    /// where an integrator can ([`Path`](crate::Path)). Structures that are traced must then have [surfaces
-    /// of triangles](rasray_ads::Description::surfaces_of_triangles). No picture changes.
+    /// True if shading kernels look up the surfaces of hits themselves, which saves storing and reading them,
+    /// for integrators that can ([`Path`](crate::Path)). Traced structures must then have [surfaces of
+    /// triangles](rasray_ads::Description::surfaces_of_triangles). Pictures do not depend on it.
     pub surfaces_of_hits: bool,
 }
 
 impl<'a> IntegratorDesc<'a> {
-    /// The features that the scene can reach, and waves as large as useful.
+    /// Makes inputs with the features that the scene can use, and waves as large as useful.
     pub fn new(device: &'a Device, scene: &'a GpuScene, film: &'a Film) -> Self {
         Self {
             device,
@@ -57,8 +57,8 @@ pub(crate) fn check_capacity(wave_capacity: u32) -> Result<u32, IntegratorError>
     }
 }
 
-/// Submits what is recorded, and then its rest, which `record` is told, for as long as there is any. Returns
-/// the times of all passes.
+/// Submits the recorded passes, and then the rest of the wave as long as there is any; `record` is told if it
+/// records the rest. Returns the times of all passes.
 pub(crate) fn submit_with_rest(
     (device, timing): (&Device, Timing),
     record: impl Fn(&mut Recorder<'_>, bool) -> Result<(), IntegratorError>,
@@ -82,16 +82,16 @@ pub(crate) fn submit_with_rest(
 /// results of a wave are visible to compute shaders and transfers recorded after it. The labels of passes are
 /// the paths of their shaders.
 pub trait Integrator {
-    /// Name, as the command and reports use it.
+    /// Name in commands and reports.
     fn name(&self) -> &'static str;
 
-    /// Records one sample of every pixel of a wave. Where surfaces let rays pass ([`Path`](crate::Path)), a
-    /// ray may pass more of them than rounds are recorded: its sample is added by
-    /// [`Integrator::record_rest`], and counted in [`FilmFaults::unended`](crate::FilmFaults) until then.
-    /// [`Integrator::render_wave`] does all of it.
+    /// Records one sample of every pixel of a wave. If surfaces let rays pass ([`Path`](crate::Path)), a ray
+    /// may pass more of them than there are recorded rounds: [`Integrator::record_rest`] adds its sample,
+    /// which counts in [`FilmFaults::unended`](crate::FilmFaults) until then. [`Integrator::render_wave`]
+    /// does all these steps.
     ///
     /// # Errors
-    /// The wave does not fit the queues or the image, or the structure was made without a scene.
+    /// An error if the wave does not fit the queues or the image, or the structure was made without a scene.
     fn record_wave(
         &self,
         recorder: &mut Recorder<'_>,
@@ -99,11 +99,11 @@ pub trait Integrator {
         wave: Wave,
     ) -> Result<(), IntegratorError>;
 
-    /// Records further rounds of the wave recorded last, which goes on where it stopped; for as long as
-    /// [`Integrator::has_rest`] says so. What is traced must be the same.
+    /// Records further rounds of the wave recorded last, which continue where it stopped. They are needed as
+    /// long as [`Integrator::has_rest`] returns true. The traced structure must be the same.
     ///
     /// # Errors
-    /// As [`Integrator::record_wave`].
+    /// Errors of [`Integrator::record_wave`].
     fn record_rest(
         &self,
         _recorder: &mut Recorder<'_>,
@@ -113,7 +113,7 @@ pub trait Integrator {
         Ok(())
     }
 
-    /// True if paths of a wave have surfaces left to pass: submits and waits where any can.
+    /// True if paths of a wave still have surfaces to pass: submits and waits, if paths can have any.
     ///
     /// # Errors
     /// The device is lost or out of memory.
@@ -121,11 +121,11 @@ pub trait Integrator {
         Ok(false)
     }
 
-    /// Renders a wave with all of its rest; returns the times of its passes. Submits and waits, once unless
-    /// rays pass many surfaces.
+    /// Renders a wave with all of its rest and returns the times of its passes. Submits and waits, once
+    /// unless rays pass many surfaces.
     ///
     /// # Errors
-    /// As [`Integrator::record_wave`], or the device fails.
+    /// Errors of [`Integrator::record_wave`], or of the device.
     fn render_wave(
         &self,
         device: &Device,
@@ -143,30 +143,30 @@ pub trait Integrator {
         )
     }
 
-    /// Records more rounds from the next wave on, for those who record frames as a whole and repeat one with
-    /// paths left; false where there cannot be more.
+    /// Records more rounds from the next wave on, for callers that record whole frames and repeat a frame
+    /// with paths left. Returns false if there cannot be more.
     fn allow_more_rounds(&self) -> bool {
         false
     }
 
-    /// True if shadow rays that lead to lights are answered by [`Traced::occluder`]; not where there are
-    /// none, nor where surfaces let them pass.
+    /// True if [`Traced::occluder`] answers shadow rays towards lights. False if there are no shadow rays, or
+    /// if surfaces let them pass.
     fn asks_occluder(&self) -> bool {
         true
     }
 
-    /// Shades another scene from the next recording on, into the same film. Kernels stay. Nothing changes
-    /// after an error.
+    /// Shades another scene from the next recording on, into the same film. Kernels stay. An error changes
+    /// nothing.
     ///
     /// # Errors
-    /// [`IntegratorError::LeftOut`] where the scene has features that the kernels were not made for.
+    /// [`IntegratorError::LeftOut`] if the scene has features that the kernels were not made for.
     fn set_scene(&mut self, scene: &GpuScene) -> Result<(), IntegratorError>;
 
-    /// The film that samples are added to.
+    /// Returns the film to which samples are added.
     fn film(&self) -> &Film;
 
-    /// All queues that are traced, for their counters: any unfinished or not-ready ray means that
-    /// the picture is not what was asked for.
+    /// Returns all queues that are traced, for their counters: any unfinished or not-ready ray means that the
+    /// picture is incomplete.
     fn queues(&self) -> Vec<&RayQueue>;
 
     /// Maximum number of rays in a wave: slots of the smallest queue.
@@ -174,26 +174,26 @@ pub trait Integrator {
         self.queues().iter().map(|queue| queue.capacity()).min().unwrap_or(0)
     }
 
-    /// Maximum number of traces that a wave records, without its rest.
+    /// Returns the largest number of traces that a wave records, without its rest.
     fn traces_per_wave(&self) -> u32;
 
-    /// True if it traces on from some surfaces alone and counts the samples of which it does
-    /// ([`FilmFaults`](crate::FilmFaults)).
+    /// True if the integrator traces secondary rays from some surfaces only and counts the samples from whose
+    /// surfaces it does ([`FilmFaults`](crate::FilmFaults)).
     fn selects(&self) -> bool {
         false
     }
 
-    /// Bytes in addition to the queues and to [`Integrator::fetch_bytes`].
+    /// Returns the bytes in addition to the queues and to [`Integrator::fetch_bytes`].
     fn state_bytes(&self) -> u64 {
         0
     }
 
-    /// Bytes of what fetches surfaces by drawing.
+    /// Returns the bytes of the fetch of surfaces by drawing.
     fn fetch_bytes(&self) -> u64 {
         0
     }
 
-    /// Bytes of queues, states and fetch, without the film.
+    /// Returns the bytes of queues, states and fetch, without the film.
     fn bytes(&self) -> u64 {
         let queues = self.queues().iter().map(|queue| queue.bytes()).sum::<u64>();
         queues + self.state_bytes() + self.fetch_bytes()
@@ -208,19 +208,19 @@ pub trait Integrator {
     }
 }
 
-/// Checks that kernels with these features shade the scene.
+/// Checks that kernels with these features can shade the scene.
 ///
 /// # Errors
-/// [`IntegratorError::LeftOut`] where they leave out what the scene has.
+/// [`IntegratorError::LeftOut`] if they leave out features of the scene.
 pub fn check_features(made_for: ShadingFeatures, scene: &GpuScene) -> Result<(), IntegratorError> {
     let missing = made_for.lacks(scene.features());
     if missing.is_empty() { Ok(()) } else { Err(IntegratorError::LeftOut { missing: missing.join(", ") }) }
 }
 
-/// Checks that a picture has all light of its samples that were added.
+/// Checks that a picture has all light of the samples that were added.
 ///
 /// # Errors
-/// [`IntegratorError::Crowded`] where surfaces lack the light of photons.
+/// [`IntegratorError::Crowded`] if surfaces lack the light of photons.
 pub fn check_faults(faults: &FilmFaults) -> Result<(), IntegratorError> {
     match faults.crowded {
         0 => Ok(()),

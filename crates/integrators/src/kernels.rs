@@ -1,4 +1,4 @@
-//! Pipelines over the slots of a wave, all made and recorded the same way.
+//! Pipelines over the slots of a wave, all made and recorded alike.
 
 use bytemuck::bytes_of;
 use rasray_ads::{Domain, RayQueue};
@@ -15,8 +15,8 @@ use rasray_shaders_glsl::{
 
 use crate::{Bands, Film, IntegratorError, Wave};
 
-/// Bindings of the integrators' set that several have, as `integrators/storage.glsl` declares them. Those of
-/// one alone, from 9 to 14, are in its own files.
+/// Bindings of the integrators' set that several integrators have, as `integrators/storage.glsl` declares
+/// them. Bindings 9 to 14 belong to single integrators, which declare them in their own files.
 pub(crate) mod binding {
     pub const FILM: u32 = 0;
     pub const FILM_FAULTS: u32 = 1;
@@ -30,16 +30,16 @@ pub(crate) mod binding {
     pub const WAVE_PIXELS: u32 = 15;
 }
 
-/// A binding of the integrators' set with its buffer.
+/// Binding of the integrators' set with its buffer.
 pub(crate) type Bound<'a> = (u32, &'a Buffer);
 
-/// Buffers that kernels bind of each band of an image.
+/// Buffers of each band of an image that kernels bind.
 pub(crate) struct OfPixels<'a> {
     pub bands: Bands,
     pub bound: Vec<Vec<Bound<'a>>>,
 }
 
-/// The film, as kernels bind it.
+/// Returns the film as kernels bind it.
 pub(crate) fn film(film: &Film) -> OfPixels<'_> {
     let of_band = |(number, pixels)| {
         let list = film.list().and_then(|lists| lists.get(number));
@@ -49,7 +49,7 @@ pub(crate) fn film(film: &Film) -> OfPixels<'_> {
     OfPixels { bands: film.bands(), bound: film.pixels().iter().enumerate().map(of_band).collect() }
 }
 
-/// A second queue, as the passes that fill it bind it.
+/// Returns a second queue as the passes that fill it bind it.
 pub(crate) fn shadow_queue(queue: &RayQueue) -> [Bound<'_>; 3] {
     [
         (binding::SHADOW_RAYS, queue.rays()),
@@ -58,7 +58,7 @@ pub(crate) fn shadow_queue(queue: &RayQueue) -> [Bound<'_>; 3] {
     ]
 }
 
-/// Constants of the camera rays: through random points of their pixels, or through the centres.
+/// Returns the constants of the camera rays: through random points of their pixels, or through the centres.
 pub(crate) fn camera_constants(pixel_centres: bool) -> [(u32, u32); 1] {
     [(PIXEL_CENTRES, u32::from(pixel_centres))]
 }
@@ -70,7 +70,7 @@ impl From<Wave> for WaveConstants {
     }
 }
 
-/// A pipeline with its label: the shader's path.
+/// Pipeline with its label, the path of its shader.
 #[derive(Debug)]
 pub(crate) struct Kernel {
     stage: Stage,
@@ -79,13 +79,13 @@ pub(crate) struct Kernel {
 }
 
 impl Kernel {
-    /// Marks it as a pass that does nothing but add to an image.
+    /// Marks the kernel as a pass that only adds to an image.
     pub fn of_film(self) -> Self {
         Self { stage: Stage::Film, ..self }
     }
 }
 
-/// The sets that the kernels of one integrator are bound to.
+/// Binding sets of the kernels of one integrator.
 #[derive(Debug)]
 pub(crate) struct Bindings {
     layouts: [SetLayout; 4],
@@ -94,17 +94,17 @@ pub(crate) struct Bindings {
     bands: Bands,
     /// Binding set of each band's storage.
     storage: Vec<BindingSet>,
-    /// True if waves are of the pixels in a list.
+    /// True if waves take pixels from a list.
     is_listed: bool,
 }
 
 impl Bindings {
-    /// Sets 0 to 3: geometry, storage, queue, scene. The queue is given when a pass is recorded. Kernels use
-    /// no bindings of the storage but those that are bound: of the pixels of the band, and the integrator's
+    /// Makes sets 0 to 3: geometry, storage, queue, scene. The queue is given when a pass is recorded.
+    /// Kernels use only storage bindings that are bound: those of the band's pixels, and the integrator's
     /// own.
     ///
     /// # Errors
-    /// Out of memory, or a buffer exceeds what one binding can hold.
+    /// Out of memory, or a buffer exceeds one binding.
     pub fn new(
         device: &Device,
         scene: &GpuScene,
@@ -144,7 +144,7 @@ impl Bindings {
     /// Makes a pipeline over these sets.
     ///
     /// # Errors
-    /// The device refuses it.
+    /// The device refuses the pipeline.
     pub fn kernel(
         &self,
         device: &Device,
@@ -162,15 +162,15 @@ impl Bindings {
         Ok(Kernel { stage: Stage::Shade, label: shader.name, pipeline })
     }
 
-    /// Refuses a wave that does not fit the queue or the image.
+    /// Returns an error for a wave that does not fit the queue or the image.
     pub fn check(&self, queue: &RayQueue, wave: Wave) -> Result<(), IntegratorError> {
         self.bands.check(wave, queue.capacity())
     }
 
-    /// Records the camera rays of a wave, by the kernel that makes them.
+    /// Records the camera rays of a wave, with the kernel that makes them.
     ///
     /// # Errors
-    /// The wave does not fit the queue or the image.
+    /// An error if the wave does not fit the queue or the image.
     pub fn record_camera_rays(
         &self,
         recorder: &mut Recorder<'_>,
@@ -206,7 +206,7 @@ impl Bindings {
     }
 }
 
-/// A device-local storage buffer, cleared where the device has a queue.
+/// Makes a device-local storage buffer, cleared if the device has a queue.
 pub(crate) fn device_buffer(device: &Device, name: &str, size: u64) -> Result<Buffer, IntegratorError> {
     let usage = BufferUsage::STORAGE | BufferUsage::TRANSFER_SRC | BufferUsage::TRANSFER_DST;
     Ok(device.create_cleared_buffer(name, usage, size)?)

@@ -1,9 +1,9 @@
 //! Integrators: they turn the hits of rays into radiance on a film. Programs that render a scene use one with
 //! any structure.
 //!
-//! - [`Integrator`] is the contract. It records waves: runs of pixels, of each of which one sample is taken.
-//!   A wave fills a ray queue, has it traced by the [`rasray_ads::Structure`] that it is given, shades the
-//!   hits, and adds to the film.
+//! - [`Integrator`] is the contract. It records waves: runs of pixels, with one sample of each pixel. A wave
+//!   fills a ray queue, has the given [`rasray_ads::Structure`] trace it, shades the hits, and adds to the
+//!   film.
 //! - [`INTEGRATORS`] has a row per integrator: ray casting, layers, ambient occlusion, environment mapping,
 //!   Whitted's ray tracing, path tracing and photon maps.
 //! - [`Film`] holds the image.

@@ -1,5 +1,5 @@
-//! The registry: every integrator, found by name, and one with its options. This is all that names an
-//! integrator outside of its own file.
+//! Registry: all integrators by name, and the options of one. Only the registry and an integrator's own file
+//! name the integrator.
 
 use std::fmt;
 
@@ -25,7 +25,7 @@ pub use photons::{PhotonKind, PhotonMap, PhotonOptions, Photons};
 pub use raycast::Raycast;
 pub use whitted::{RAY_DEPTH_LIMIT, Select, Shadows, Whitted, WhittedOptions};
 
-/// Every integrator; the first is the default.
+/// All integrators; the first is the default.
 pub static INTEGRATORS: &[IntegratorRow] = &[
     path::ROW,
     whitted::ROW,
@@ -36,19 +36,19 @@ pub static INTEGRATORS: &[IntegratorRow] = &[
     layers::ROW,
 ];
 
-/// Why a ray is traced.
+/// Purpose of a ray.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RayKind {
-    /// From the eye; may be answered by drawing ([`Visibility`](crate::Visibility)).
+    /// Ray from the eye; drawing may answer it ([`Visibility`](crate::Visibility)).
     Camera,
-    /// From a surface, to its nearest hit.
+    /// Ray from a surface to its nearest hit.
     Scattered,
-    /// From a surface, to what occludes something.
+    /// Ray from a surface that tests for occlusion.
     Shadow,
 }
 
 impl RayKind {
-    /// Its name on pages.
+    /// Name on pages.
     pub fn name(self) -> &'static str {
         match self {
             Self::Camera => "camera",
@@ -58,34 +58,34 @@ impl RayKind {
     }
 }
 
-/// A row of the registry. Everything that is known of an integrator by name is here and in its own file; the
-/// naive one of `rasray_reference::integrators` has the same name.
+/// Row of the registry. This row and the integrator's own file hold all that is known of an integrator by
+/// name; the naive one in `rasray_reference::integrators` has the same name.
 #[derive(Clone, Copy)]
 pub struct IntegratorRow {
     /// Name, on the command line and in reports.
     pub name: &'static str,
-    /// Description, one line of help without a full stop.
+    /// Description: one line of help without a full stop.
     pub doc: &'static str,
-    /// Options that it has, in the order of help.
+    /// Options of the integrator, in the order of help.
     pub options: &'static [&'static OptionRow],
-    /// Rays that it traces.
+    /// Kinds of rays that the integrator traces.
     pub rays: &'static [RayKind],
-    /// Data of a scene that it looks at.
+    /// Data of a scene that the integrator observes.
     workload: fn(&IntegratorSpec) -> Workload,
-    /// Makes it.
+    /// Function that makes the integrator.
     make: Make,
 }
 
-/// Makes an integrator with its options.
+/// Function that makes an integrator with its options.
 type Make = fn(&IntegratorDesc<'_>, &IntegratorSpec) -> Result<Box<dyn Integrator>, IntegratorError>;
 
 impl IntegratorRow {
-    /// The integrator of that name.
+    /// Returns the integrator of that name.
     pub fn named(name: &str) -> Option<&'static Self> {
         INTEGRATORS.iter().find(|row| row.name == name)
     }
 
-    /// The option of that name, where it has it.
+    /// Returns the option of that name, if the integrator has it.
     pub fn option(&self, name: &str) -> Option<&'static OptionRow> {
         self.options.iter().copied().find(|row| row.name == name)
     }
@@ -105,7 +105,7 @@ impl fmt::Debug for IntegratorRow {
     }
 }
 
-/// Every option that an integrator has, each once.
+/// Returns every option of any integrator, each once.
 pub fn integrator_options() -> Vec<&'static OptionRow> {
     let mut rows: Vec<&OptionRow> = Vec::new();
     for row in INTEGRATORS.iter().flat_map(|integrator| integrator.options) {
@@ -116,26 +116,26 @@ pub fn integrator_options() -> Vec<&'static OptionRow> {
     rows
 }
 
-/// An integrator with its options.
+/// Integrator with its options.
 #[derive(Clone, Debug, PartialEq)]
 pub struct IntegratorSpec {
     row: &'static IntegratorRow,
-    /// Values that are not the default.
+    /// Option values that differ from the defaults.
     options: OptionValues,
 }
 
 impl From<&'static IntegratorRow> for IntegratorSpec {
-    /// With every option at its default.
+    /// Returns the integrator with every option at its default.
     fn from(row: &'static IntegratorRow) -> Self {
         Self { row, options: OptionValues::default() }
     }
 }
 
 impl IntegratorSpec {
-    /// An integrator with options over its defaults.
+    /// Sets options of an integrator over its defaults.
     ///
     /// # Errors
-    /// An option or a value that it does not have.
+    /// An error for an option or a value that the integrator does not have.
     pub fn new(row: &'static IntegratorRow, options: &OptionValues) -> Result<Self, IntegratorError> {
         let mut spec = Self::from(row);
         for (name, value) in options.iter() {
@@ -152,44 +152,44 @@ impl IntegratorSpec {
     /// Adds a value for one more option.
     ///
     /// # Errors
-    /// As [`IntegratorSpec::new`].
+    /// Errors of [`IntegratorSpec::new`].
     pub fn with(&self, option: &'static str, value: impl Into<Value>) -> Result<Self, IntegratorError> {
         Self::new(self.row, &self.options.clone().with(option, value))
     }
 
-    /// The registry's row.
+    /// Returns the row of the registry.
     pub fn row(&self) -> &'static IntegratorRow {
         self.row
     }
 
-    /// Its name.
+    /// Returns the name of the integrator.
     pub fn name(&self) -> &'static str {
         self.row.name
     }
 
-    /// Options whose values are not the default.
+    /// Returns the options whose values differ from the defaults.
     pub fn options(&self) -> &OptionValues {
         &self.options
     }
 
-    /// The value of an option, given or by default; absent where it has none or the integrator lacks the
+    /// Returns the value of an option, given or default; `None` if it has none or the integrator lacks the
     /// option.
     pub fn get(&self, option: &str) -> Option<Value> {
         self.options.get(option).or_else(|| self.row.option(option)?.default)
     }
 
-    /// The value of every option that has one.
+    /// Returns the value of every option that has one.
     pub fn values(&self) -> OptionValues {
         self.row.options.iter().filter_map(|row| Some((row.name, self.get(row.name)?))).collect()
     }
 
-    /// The one of these that the value of an option names; the first where it names none.
+    /// Returns the element of `all` that the value of an option names; the first if it names none.
     fn choice<T: Copy + Default>(&self, option: &OptionRow, all: &[T], name: fn(T) -> &'static str) -> T {
         let word = self.get(option.name).and_then(Value::word);
         all.iter().copied().find(|value| Some(name(*value)) == word).unwrap_or_default()
     }
 
-    /// Data of a scene that it looks at.
+    /// Returns the data of a scene that the integrator observes.
     pub fn workload(&self) -> Workload {
         (self.row.workload)(self)
     }
@@ -197,7 +197,7 @@ impl IntegratorSpec {
     /// Makes the integrator.
     ///
     /// # Errors
-    /// Sizes that do not fit, out of memory, or the device refuses a pipeline.
+    /// An error for sizes that do not fit, out of memory, or if the device refuses a pipeline.
     pub fn make(&self, desc: &IntegratorDesc<'_>) -> Result<Box<dyn Integrator>, IntegratorError> {
         (self.row.make)(desc, self)
     }

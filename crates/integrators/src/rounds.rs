@@ -1,4 +1,4 @@
-//! Rounds of a wave whose rays go on behind what they hit, however often that is.
+//! Rounds of a wave whose rays continue behind their hits, any number of times.
 
 use std::sync::atomic::{AtomicU32, Ordering};
 
@@ -8,7 +8,7 @@ use rasray_shaders_glsl::constants::scene::{WAVE_ROUND_LAST, WAVE_ROUND_RESUMES}
 
 use crate::{IntegratorError, Traced, Wave, kernels::WaveConstants};
 
-/// Number of closest-hit rounds that one recording of a wave has. Rays that have not ended then are counted
+/// Number of closest-hit rounds in one recording of a wave. Rays that have not ended after these rounds count
 /// in [`FilmFaults::unended`](crate::FilmFaults) and are the rest of the wave.
 #[derive(Debug)]
 pub(crate) struct Rounds {
@@ -18,7 +18,7 @@ pub(crate) struct Rounds {
 }
 
 impl Rounds {
-    /// So many at first, and at most.
+    /// Makes a number that is `first` at first, and at most `limit`.
     pub fn new(first: u32, limit: u32) -> Self {
         Self { now: first.min(limit).into(), limit, is_masked: false }
     }
@@ -28,28 +28,29 @@ impl Rounds {
         Self { is_masked, ..self }
     }
 
-    /// Slots that passes over rays of `wave` work on after the first round.
+    /// Returns the slots on which passes over rays of `wave` work after the first round.
     pub fn later(&self, wave: Wave) -> Domain {
         if self.is_masked { Domain::First(wave.pixel_count) } else { Domain::Selected }
     }
 
-    /// Number of rounds that are recorded.
+    /// Returns the number of rounds that are recorded.
     pub fn now(&self) -> u32 {
         self.now.load(Ordering::Relaxed)
     }
 
-    /// Twice as many from the next recording on; false where there cannot be more.
+    /// Doubles the number from the next recording on; returns false if there cannot be more.
     pub fn allow_more(&self) -> bool {
         let now = self.now();
         self.now.store(now.saturating_mul(2).min(self.limit), Ordering::Relaxed);
         now < self.limit
     }
 
-    /// Records the rounds of a new wave, whose camera rays are in the queue, or of the rest of one: a trace,
-    /// then `shade`, which is given the slots that were traced, and selects those that have another ray.
+    /// Records the rounds of a new wave, whose camera rays are in the queue, or of the rest of one. A round
+    /// is a trace, then `shade`, which gets the slots that were traced, and selects those that have another
+    /// ray.
     ///
     /// # Errors
-    /// The structure was made without a scene.
+    /// An error if the structure was made without a scene.
     pub fn record(
         &self,
         recorder: &mut Recorder<'_>,

@@ -1,19 +1,19 @@
-//! The structure that the rays of an integrator are traced through.
+//! Structure through which the rays of an integrator are traced.
 
 use rasray_ads::{AdsError, Domain, Occluder, RayQueue, Structure, Trace, TracedPart};
 use rasray_gpu::Recorder;
 
 use crate::{Fetch, IntegratorError, Visibility, Wave};
 
-/// The way in which first hits of camera rays are found.
+/// Method that finds the first hits of camera rays.
 #[derive(Clone, Copy, Debug, Default)]
 pub enum FirstHits<'a> {
-    /// A trace, as of all other rays.
+    /// Tracing, as for all other rays.
     #[default]
     Traced,
     /// Drawing.
     Drawn(&'a Visibility),
-    /// The structure's view of the camera ([`Structure::record_first_hits`]).
+    /// Use of the structure's view of the camera ([`Structure::record_first_hits`]).
     Stored,
 }
 
@@ -23,19 +23,20 @@ impl<'a> From<Option<&'a Visibility>> for FirstHits<'a> {
     }
 }
 
-/// A structure, and what answers some rays in its place.
+/// Structure, and the helpers that answer some rays in its place.
 #[derive(Clone, Copy)]
 pub struct Traced<'a> {
-    /// Finds the nearest hit and its surface.
+    /// Structure that finds the nearest hit and its surface.
     pub closest: &'a dyn Structure,
-    /// Answers shadow rays; where absent, they are traced. Not used where surfaces let them pass: they need
-    /// nearest hits there ([`Integrator::asks_occluder`](crate::Integrator::asks_occluder)).
+    /// Occluder that answers shadow rays; if absent, they are traced. It is not used if surfaces let shadow
+    /// rays pass, since these need nearest hits
+    /// ([`Integrator::asks_occluder`](crate::Integrator::asks_occluder)).
     pub occluder: Option<&'a dyn Occluder>,
-    /// Finds what camera rays hit.
+    /// Method that finds the hits of camera rays.
     pub primary: FirstHits<'a>,
-    /// Fetches the surfaces of what is traced by drawing; where absent, the structure looks them up.
+    /// Fetch of the surfaces of traced rays by drawing; if absent, the structure looks them up.
     pub fetch: Option<&'a Fetch>,
-    /// Surfaces are looked up by what shades them, of the hits in the queue.
+    /// True if the shading kernel looks up surfaces by the hits in the queue.
     of_hits: bool,
 }
 
@@ -52,19 +53,19 @@ impl<'a, S: Structure> From<&'a S> for Traced<'a> {
 }
 
 impl<'a> Traced<'a> {
-    /// Answers camera rays by `primary`.
+    /// Sets the method `primary` for camera rays.
     #[must_use]
     pub fn with_primary(self, primary: impl Into<FirstHits<'a>>) -> Self {
         Self { primary: primary.into(), ..self }
     }
 
-    /// Answers shadow rays by `occluder`.
+    /// Sets `occluder` for shadow rays.
     #[must_use]
     pub fn with_occluder(self, occluder: Option<&'a dyn Occluder>) -> Self {
         Self { occluder, ..self }
     }
 
-    /// Fetches surfaces by `fetch`.
+    /// Sets `fetch` for surfaces.
     #[must_use]
     pub fn with_fetch(self, fetch: Option<&'a Fetch>) -> Self {
         Self { fetch, ..self }
@@ -73,7 +74,7 @@ impl<'a> Traced<'a> {
     /// Leaves surfaces out of the queue, for a kernel that looks them up by the hits.
     ///
     /// # Errors
-    /// Surfaces of the structure are not those of the triangles that its hits name.
+    /// An error if surfaces of the structure are not those of the triangles that its hits name.
     pub(crate) fn with_surfaces_of_hits(self) -> Result<Self, IntegratorError> {
         let structure = self.closest.description();
         if !structure.surfaces_of_triangles {
@@ -85,8 +86,8 @@ impl<'a> Traced<'a> {
     /// Records hits and surfaces of the camera rays of a wave.
     ///
     /// # Errors
-    /// The structure was made without a scene, surfaces are drawn and its hits are fragments, or it has no
-    /// first hits where those are asked for.
+    /// An error if the structure was made without a scene, if surfaces are drawn and the structure's hits are
+    /// fragments, or if the structure lacks the requested first hits.
     pub(crate) fn record_primary(
         self,
         recorder: &mut Recorder<'_>,
@@ -110,7 +111,8 @@ impl<'a> Traced<'a> {
     /// Records hits and surfaces of the slots of `domain`.
     ///
     /// # Errors
-    /// The structure was made without a scene, or surfaces are drawn and its hits are fragments.
+    /// An error if the structure was made without a scene, or surfaces are drawn and the structure's hits are
+    /// fragments.
     pub(crate) fn record_closest(
         self,
         recorder: &mut Recorder<'_>,
@@ -125,7 +127,7 @@ impl<'a> Traced<'a> {
         }
     }
 
-    /// Records whether rays of the slots of `domain` hit anything.
+    /// Records occlusion tests of the rays in the slots of `domain`.
     pub(crate) fn record_occluded(self, recorder: &mut Recorder<'_>, queue: &RayQueue, domain: Domain) {
         match self.occluder {
             Some(occluder) => occluder.record_occluded(recorder, queue, domain, self.closest),

@@ -17,16 +17,17 @@ use rasray_shaders_glsl::{
 
 use crate::{IntegratorError, Wave, kernels::device_buffer};
 
-/// Finds what camera rays hit by drawing the triangles, in place of a trace ([`crate::Traced::primary`]).
+/// Finds the first hits of camera rays by drawing the triangles, in place of a trace
+/// ([`crate::Traced::primary`]).
 ///
-/// The rasterizer proposes pixels, and the test that traces use decides on the ray of each pixel, so hits are
+/// The rasterizer proposes pixels, and the ray test of tracing decides on the ray of each pixel, so hits are
 /// those of a structure that finds every triangle, bit for bit. Surfaces are those of triangles, whatever
-/// structure later rays are traced through. Triangles are drawn through a pinhole: where the camera has a
-/// lens, every ray is counted as not ready.
+/// structure later rays are traced through. Triangles are drawn through a pinhole: if the camera has a lens,
+/// every ray is counted as not ready.
 #[derive(Debug)]
 pub struct Visibility {
     geometry: Geometry,
-    /// Pixels a row of the image.
+    /// Number of pixels per row of the image.
     width: u32,
     counts: Buffer,
     set: BindingSet,
@@ -36,7 +37,7 @@ pub struct Visibility {
 }
 
 impl Visibility {
-    /// Requirements of a device: the floor, and stores of fragment shaders.
+    /// Returns the requirements of a device: the common minimum, and stores of fragment shaders.
     pub fn requirements() -> Requirements {
         let mut requirements = Requirements::floor();
         requirements.required.push(Feature::FragmentStoresAndAtomics);
@@ -47,8 +48,8 @@ impl Visibility {
     /// at a pixel is counted as a test of the queue.
     ///
     /// # Errors
-    /// `CannotDraw` where the device lacks a feature or the image is larger than it can draw; out of memory,
-    /// or the device refuses a pipeline.
+    /// `CannotDraw` if the device lacks a feature or the image is larger than it can draw; out of memory, or
+    /// the device refuses a pipeline.
     pub fn new(
         device: &Device,
         scene: &GpuScene,
@@ -86,10 +87,10 @@ impl Visibility {
     }
 
     /// Draws the triangles of another scene from the next recording on, into images of the same size.
-    /// Pipelines stay. Nothing changes after an error.
+    /// Pipelines stay. An error changes nothing.
     ///
     /// # Errors
-    /// The binding of the scene differs from that of the first in what pipelines are compiled for.
+    /// An error if the bindings of the two scenes differ in a property that pipelines are compiled for.
     pub fn set_scene(&mut self, scene: &GpuScene) -> Result<(), IntegratorError> {
         let binding = scene.binding();
         if let Some(what) = self.scene.difference(binding) {
@@ -100,14 +101,14 @@ impl Visibility {
         Ok(())
     }
 
-    /// Records that counts start at 0; once before first use.
+    /// Records that counts start at 0; needed once before first use.
     pub fn record_reset(&self, recorder: &mut Recorder<'_>) {
         recorder.barrier(Access::FRAGMENT | Access::TRANSFER, Access::TRANSFER_WRITE);
         recorder.fill(&self.counts, 0, self.counts.size(), 0);
         recorder.barrier(Access::TRANSFER_WRITE, Access::FRAGMENT | Access::TRANSFER);
     }
 
-    /// Records hits and surfaces of the rays of a wave, which are those of its pixels.
+    /// Records hits and surfaces of the rays of a wave, which must be the camera rays of its pixels.
     pub(crate) fn record(&self, recorder: &mut Recorder<'_>, queue: &RayQueue, wave: Wave) {
         let hit_bytes = u64::from(wave.pixel_count) * size_of::<Hit>() as u64;
         recorder.begin_pass(Stage::Visible, "integrators/visibility");
@@ -136,7 +137,7 @@ impl Visibility {
         recorder.push_constants(bytes_of(&VisibilityConstants { first_pixel, pixel_count, round }));
     }
 
-    /// Bytes of its own; hits and surfaces are the queue's.
+    /// Returns the bytes of its own buffers; hits and surfaces belong to the queue.
     pub fn bytes(&self) -> u64 {
         self.counts.size()
     }
@@ -150,7 +151,7 @@ impl Visibility {
     }
 }
 
-/// An error unless the device can draw an image of this size.
+/// Returns an error unless the device can draw an image of this size.
 fn check(device: &Device, width: u32, height: u32) -> Result<(), IntegratorError> {
     let missing = device.lacks(&Visibility::requirements());
     if !missing.is_empty() {
@@ -168,7 +169,7 @@ fn check(device: &Device, width: u32, height: u32) -> Result<(), IntegratorError
     Ok(())
 }
 
-/// Rows of the image in which a wave has pixels.
+/// Returns the number of rows of the image in which a wave has pixels.
 fn rows(wave: Wave, width: u32) -> u32 {
     (wave.first_pixel + wave.pixel_count - 1) / width - wave.first_pixel / width + 1
 }

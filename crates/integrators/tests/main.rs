@@ -1,5 +1,5 @@
-//! Every test of this package as one program, which is built and linked once: a module for each concern,
-//! whose first lines say what it holds. `tools/run-tests` runs each module in a process of its own.
+//! All tests of this package as one program, which is built and linked once: a module for each concern, whose
+//! first lines say what it holds. `tools/run-tests` runs each module in a process of its own.
 
 #[path = "fetch/main.rs"]
 mod fetch;

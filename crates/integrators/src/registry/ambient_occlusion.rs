@@ -14,7 +14,7 @@ use crate::{
     kernels::{self, Bindings, Kernel, WaveConstants, camera_constants, film},
 };
 
-/// The registry's row.
+/// Row of the registry.
 pub(super) const ROW: IntegratorRow = IntegratorRow {
     name: "ao",
     doc: "Ambient occlusion: cosine-weighted visibility of a white environment",
@@ -34,8 +34,8 @@ const DISTANCE: OptionRow = OptionRow::new(
 )
 .trying(&["0.5", "2"]);
 
-/// One occlusion ray per sample from the surface that the camera ray hits; the background is 1. Two traces
-/// per wave.
+/// Ambient occlusion: one occlusion ray per sample from the surface that the camera ray hits; the background
+/// is 1. Two traces per wave.
 #[derive(Debug)]
 pub struct AmbientOcclusion {
     range: f32,
@@ -49,12 +49,11 @@ pub struct AmbientOcclusion {
 }
 
 impl AmbientOcclusion {
-    /// Makes queues and kernels. Only what lies nearer than `range` metres occludes; infinity for
-    /// everything.
+    /// Makes queues and kernels. Only surfaces nearer than `range` metres occlude; with infinity all do.
     ///
     /// # Errors
-    /// A range that is not above 0, sizes that do not fit, out of memory, or the device refuses a
-    /// pipeline.
+    /// An error for a range that is not above 0, sizes that do not fit, out of memory, or if the device
+    /// refuses a pipeline.
     pub fn new(desc: &IntegratorDesc<'_>, range: f32) -> Result<Self, IntegratorError> {
         if range != f32::INFINITY {
             DISTANCE.check(Value::Number(range))?;

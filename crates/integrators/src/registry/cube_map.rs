@@ -1,5 +1,4 @@
-//! Environment mapping: mirrored and refracted rays are looked up by their direction in a cube map of the
-//! scene.
+//! Environment mapping: a cube map of the scene answers mirrored and refracted rays by their direction.
 
 use bytemuck::bytes_of;
 use rasray_ads::{Domain, RayQueue};
@@ -24,7 +23,7 @@ use crate::{
 use super::sample_map::SampleMap;
 use super::whitted::{MIRROR_ROUGHNESS, SHADOWS, TreeKernels};
 
-/// The registry's row.
+/// Row of the registry.
 pub(super) const ROW: IntegratorRow = IntegratorRow {
     name: "cube-map",
     doc: "Environment mapping: direct light, reflections and refractions by direction from a cube map",
@@ -34,7 +33,7 @@ pub(super) const ROW: IntegratorRow = IntegratorRow {
     make: |desc, spec| Ok(Box::new(CubeMap::new(desc, CubeMapOptions::of(spec))?)),
 };
 
-/// Most texels along a side of a face.
+/// Largest number of texels along a side of a face.
 pub const CUBE_MAP_LIMIT: u32 = 2048;
 
 const RESOLUTION: OptionRow = OptionRow::new(
@@ -56,20 +55,20 @@ const POSITION: OptionRow = OptionRow::new(
 const CUBE_MAP_TEXELS: u32 = 11;
 const CUBE_MAP_HEADER: u32 = 12;
 
-/// Invocations that look for what is smooth, at most.
+/// Largest number of invocations that search for smooth surfaces.
 const BOUNDS_INVOCATIONS: u32 = 4096;
 
 /// Options of [`CubeMap`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CubeMapOptions {
-    /// Texels along a side of a face, from 1 to [`CUBE_MAP_LIMIT`].
+    /// Number of texels along a side of a face, from 1 to [`CUBE_MAP_LIMIT`].
     pub resolution: u32,
-    /// Centre of projection of the map, world, metres; the centre of the bounds of what is perfectly smooth
-    /// where absent.
+    /// Centre of projection of the map, world, metres; if absent, the centre of the bounds of the perfectly
+    /// smooth surfaces.
     pub position: Option<[f32; 3]>,
-    /// Surfaces that trace shadow rays: with [`Shadows::First`] those that the map shows do not.
+    /// Surfaces from which shadow rays are traced; with [`Shadows::First`], surfaces in the map trace none.
     pub shadows: Shadows,
-    /// Surfaces less rough than this perceptual roughness are perfectly smooth; not negative.
+    /// Perceptual roughness below which surfaces are perfectly smooth; not negative.
     pub mirror_roughness: f32,
 }
 
@@ -95,24 +94,24 @@ impl CubeMapOptions {
     }
 }
 
-/// Surfaces that the camera sees, lit directly, with one mirrored and one refracted ray each that a cube map
-/// answers by their direction alone. Each sample draws a map of its own: what is seen from one point, lit
-/// directly, perfectly smooth surfaces that are seen from behind left out. The map is traced through the
-/// structure, once per sample, in waves of its own.
+/// Environment mapping: direct light on the surfaces that the camera sees, with one mirrored and one
+/// refracted ray each, which a cube map answers by their direction alone. Each sample draws a map of its own:
+/// the scene seen from one point, with direct light, without perfectly smooth surfaces that show their back.
+/// The map is traced through the structure, once per sample, in waves of its own.
 ///
-/// Where surfaces let rays pass, rays of the map may need more rounds than are recorded, and what the camera
-/// sees can be looked up only after them: [`Integrator::render_wave`] waits for them, and frames are repeated
-/// with more rounds ([`Integrator::allow_more_rounds`]).
+/// If surfaces let rays pass, rays of the map may need more rounds than are recorded, and the camera's
+/// surfaces can be looked up only after them: [`Integrator::render_wave`] waits for them, and frames are
+/// repeated with more rounds ([`Integrator::allow_more_rounds`]).
 #[derive(Debug)]
 pub struct CubeMap {
     position: Option<[f32; 3]>,
-    /// Relative to the frame origin of the scene that is shown.
+    /// Header of the map, relative to the frame origin of the current scene.
     header: CubeMapHeader,
     header_buffer: Buffer,
     bounds: Kernel,
-    /// The map; its film has the texels.
+    /// Integrator of the map; its film holds the texels.
     drawn: Whitted,
-    /// Renders what the camera sees.
+    /// Integrator of the surfaces that the camera sees.
     seen: Whitted,
     of_sample: SampleMap,
 }
@@ -121,7 +120,8 @@ impl CubeMap {
     /// Makes queues, states, kernels and the map.
     ///
     /// # Errors
-    /// An option out of its range, sizes that do not fit, out of memory, or the device refuses a pipeline.
+    /// An error for an option out of its range, sizes that do not fit, out of memory, or if the device
+    /// refuses a pipeline.
     pub fn new(desc: &IntegratorDesc<'_>, options: CubeMapOptions) -> Result<Self, IntegratorError> {
         let CubeMapOptions { resolution, position, shadows, mirror_roughness } = options;
         RESOLUTION.check(Value::Whole(resolution))?;
@@ -145,7 +145,7 @@ impl CubeMap {
             bound: &[(CUBE_MAP_HEADER, &header_buffer)],
             passes_backs: true,
         };
-        // Surfaces that are not seen directly are lit without shadow rays.
+        // Surfaces in the map, which the camera does not see directly, are lit without shadow rays.
         let shadows = if shadows == Shadows::First { Shadows::None } else { shadows };
         let drawn = Whitted::of_trees(&of_texels, WhittedOptions { shadows, ..direct }, &kernels)?;
         let kernels = TreeKernels {
@@ -168,12 +168,12 @@ impl CubeMap {
         })
     }
 
-    /// Waves of the map for a sample.
+    /// Iterates over the waves of the map for a sample.
     fn map_waves(&self, sample: u32) -> impl Iterator<Item = Wave> {
         self.drawn.film().bands().waves([sample], self.drawn.wave_capacity())
     }
 
-    /// Records that the map is empty, and where it is drawn from.
+    /// Records that the map is empty, and sets its centre of projection.
     fn record_position(&self, recorder: &mut Recorder<'_>) {
         self.drawn.film().record_clear_pixels(recorder);
         recorder.update(&self.header_buffer, 0, bytes_of(&self.header));
@@ -187,7 +187,7 @@ impl CubeMap {
     }
 }
 
-/// The header that a map begins with. Bounds are empty.
+/// Makes the initial header of a map. Bounds are empty.
 fn header(resolution: u32, position: Option<[f32; 3]>, scene: &GpuScene) -> CubeMapHeader {
     let origin = scene.frame_origin().to_array();
     let relative =
@@ -201,7 +201,7 @@ fn header(resolution: u32, position: Option<[f32; 3]>, scene: &GpuScene) -> Cube
     }
 }
 
-/// `traced` without drawing, which does not answer rays of the map: they do not leave the eye.
+/// Returns `traced` without drawing, which cannot answer rays of the map: they do not leave the eye.
 fn of_map(traced: Traced<'_>) -> Traced<'_> {
     traced.with_primary(None)
 }
@@ -260,7 +260,7 @@ impl Integrator for CubeMap {
     }
 
     fn allow_more_rounds(&self) -> bool {
-        // Both: whose rays have not ended is not told apart.
+        // Both get more rounds: the faults do not tell whose rays have not ended.
         let map = self.drawn.allow_more_rounds();
         self.seen.allow_more_rounds() | map
     }

@@ -15,7 +15,7 @@ use crate::{
     rounds::Rounds,
 };
 
-/// The registry's row.
+/// Row of the registry.
 pub(super) const ROW: IntegratorRow = IntegratorRow {
     name: "layers",
     doc: "Ray casting through one surface after the other, by their opacity",
@@ -53,15 +53,15 @@ const LAYER_OPACITY: OptionRow = OptionRow::new(
 /// Binding of the states, as `integrators/layers_shade.comp` declares it.
 const LAYERS_STATES: u32 = 9;
 
-/// Rounds that a wave has at first.
+/// Number of rounds that a wave has at first.
 const USUAL_LAYERS: u32 = 8;
 
-/// Shows all surfaces along a ray in the colours of [`Raycast`](crate::Raycast), front to back: each adds its
-/// colour by its opacity and lets the rest of 1 pass. A round per surface, as many as it takes
-/// ([`Integrator::record_rest`], [`Integrator::allow_more_rounds`]).
+/// Ray casting through layers: all surfaces along a ray in the colours of [`Raycast`](crate::Raycast), front
+/// to back. Each adds its colour by its opacity and lets the rest of 1 pass. There is a round per surface, as
+/// many as needed ([`Integrator::record_rest`], [`Integrator::allow_more_rounds`]).
 #[derive(Debug)]
 pub struct Layers {
-    /// Surfaces that are there for a ray; `u32::MAX`: all.
+    /// Number of surfaces of a ray that are shown; `u32::MAX` shows all.
     limit: u32,
     opacity: f32,
     rounds: Rounds,
@@ -74,12 +74,12 @@ pub struct Layers {
 }
 
 impl Layers {
-    /// Makes queue and kernels. For a ray the first `limit` surfaces are there, all of them without a limit;
-    /// each has `opacity` times the opacity of its material.
+    /// Makes queue and kernels. The first `limit` surfaces of a ray are shown, or all without a limit; each
+    /// has `opacity` times the opacity of its material.
     ///
     /// # Errors
-    /// A limit that is not from 1 to [`PATH_LAYER_LIMIT`], an opacity that is not above 0 and at most 1,
-    /// sizes that do not fit, out of memory, or the device refuses a pipeline.
+    /// An error for a limit outside of 1 to [`PATH_LAYER_LIMIT`], an opacity that is not above 0 and at most
+    /// 1, sizes that do not fit, out of memory, or if the device refuses a pipeline.
     pub fn new(desc: &IntegratorDesc<'_>, limit: Option<u32>, opacity: f32) -> Result<Self, IntegratorError> {
         limit.map(|limit| LAYER_LIMIT.check(Value::Whole(limit))).transpose()?;
         LAYER_OPACITY.check(Value::Number(opacity))?;
@@ -90,7 +90,8 @@ impl Layers {
         let states = device_buffer(device, "layers", bytes)?;
         let own = [(LAYERS_STATES, &states)];
         let bindings = Bindings::new(device, desc.scene, &film(desc.film), &own)?;
-        // One more than there are surfaces: what the last one leaves sees the background.
+        // There is one round more than surfaces: the light that the last one lets through comes from the
+        // background.
         let most = limit.unwrap_or(PATH_LAYER_LIMIT + 1);
         Ok(Self {
             limit: limit.unwrap_or(u32::MAX),
@@ -105,7 +106,7 @@ impl Layers {
         })
     }
 
-    /// The rounds of a new wave or of the rest of one.
+    /// Records the rounds of a new wave or of the rest of one.
     fn record_rounds(
         &self,
         recorder: &mut Recorder<'_>,

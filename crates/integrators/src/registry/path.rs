@@ -31,7 +31,7 @@ pub use options::{BOUNCE_LIMIT, Fetching, GlassShadows, PathOptions, SpecularLob
 pub(super) use options::{BOUNCES, SHADOW_TERMINATOR, SPECULAR};
 use options::{FETCH, GLASS_SHADOWS};
 
-/// The registry's row.
+/// Row of the registry.
 pub(super) const ROW: IntegratorRow = IntegratorRow {
     name: "path",
     doc: "Path tracing with light sampling",
@@ -49,18 +49,18 @@ pub(super) const ROW: IntegratorRow = IntegratorRow {
     make: |desc, spec| Ok(Box::new(Path::new(desc, PathOptions::of(spec))?)),
 };
 
-/// Surfaces passed in a straight line that the rounds of a wave allow for at first.
+/// Number of surfaces passed in a straight line that the rounds of a wave allow for at first.
 pub(super) const USUAL_LAYERS: u32 = 8;
 
-/// Most rounds that one recording of a wave has; more are recorded as its rest.
+/// Largest number of rounds in one recording of a wave; more are recorded as its rest.
 pub(super) const ROUND_LIMIT: u32 = 2 * BOUNCE_LIMIT + 1 + 2 * PATH_LAYER_LIMIT;
 
-/// Paths of at most so many scatterings. In every round each path that goes on traces one
+/// Path tracing with a limited number of scatterings. In every round each path that continues traces one
 /// closest-hit ray and at most one shadow ray; paths that have ended take part in no pass.
 ///
-/// Where surfaces let light pass in a straight line, blended ones and smooth thin panes, shadow rays go
-/// through them as paths do: a round traces either for each path, and there are as many as it takes
-/// ([`Integrator::record_rest`], [`Integrator::allow_more_rounds`]).
+/// If surfaces let light pass in a straight line, blended ones and smooth thin panes, shadow rays go through
+/// them as paths do. Each round then traces one of the two rays for each path, and there are as many rounds
+/// as needed ([`Integrator::record_rest`], [`Integrator::allow_more_rounds`]).
 #[derive(Debug)]
 pub struct Path {
     bounces: u32,
@@ -75,42 +75,42 @@ pub struct Path {
     bindings: Bindings,
     primary: Kernel,
     shade: Kernel,
-    /// It looks up surfaces by the hits in the queue.
+    /// True if the kernels look up surfaces by the hits in the queue.
     of_hits: bool,
-    /// Finds surfaces in place of the structure.
+    /// Fetch that finds surfaces in place of the structure.
     fetch: Option<Fetch>,
 }
 
 /// Buffers and kernels that test light samples.
 #[derive(Debug)]
 enum Shadows {
-    /// Whatever a ray hits stops it: a queue of their own, traced for occlusion.
+    /// Any hit stops a shadow ray: shadow rays have a queue of their own, traced for occlusion.
     Occluded { queue: RayQueue, pending: Buffer, resolve: Kernel, accumulate: Kernel },
-    /// Surfaces may let a ray pass: shadow rays are in the queue of the paths, which wait.
+    /// Surfaces may let a ray pass: shadow rays use the queue of the paths, which wait.
     Passing { waiting: Buffer },
 }
 
-/// A photon map that paths gather.
+/// Photon map that paths gather.
 #[derive(Clone, Copy)]
 pub(super) struct Gathered<'a> {
-    /// Buffers that kernels bind of it.
+    /// Buffers of the map that kernels bind.
     pub bound: &'a [Bound<'a>],
-    /// It has all indirect light, and not caustics alone.
+    /// True if the map has all indirect light, and not caustics alone.
     pub all: bool,
 }
 
 impl Path {
-    /// Makes queues, states and kernels. A number of bounces will do for the options.
+    /// Makes queues, states and kernels. A number of bounces converts into options.
     ///
     /// # Errors
-    /// More than [`BOUNCE_LIMIT`] bounces, sizes that do not fit, out of memory, or the device
-    /// refuses a pipeline.
+    /// An error for more than [`BOUNCE_LIMIT`] bounces, sizes that do not fit, out of memory, or if the
+    /// device refuses a pipeline.
     pub fn new(desc: &IntegratorDesc<'_>, options: impl Into<PathOptions>) -> Result<Self, IntegratorError> {
         Self::gathering(desc, options.into(), None)
     }
 
-    /// Makes paths, which gather photons where there are any: light then goes through panes by scattering
-    /// alone, and surfaces are in the queue.
+    /// Makes paths that gather the given photons. With photons, light goes through panes by scattering alone,
+    /// and surfaces are in the queue.
     pub(super) fn gathering(
         desc: &IntegratorDesc<'_>,
         options: PathOptions,
@@ -178,26 +178,27 @@ impl Path {
     }
 }
 
-/// Rounds that a wave has at first. A path needs one closest-hit round per scattering and one for what the
-/// last scattered ray hits. Where its shadow rays take part, they need one per scattering as well, and so
-/// does every surface that a ray passes, of which there may be more: the rest of the wave.
+/// Returns the number of rounds that a wave has at first. A path needs one closest-hit round per scattering
+/// and one for the hit of the last scattered ray. With passing shadow rays it also needs one per scattering
+/// for them, and one for every surface that a ray passes, of which there may be more: these are the rest of
+/// the wave.
 fn rounds(bounces: u32, passing: bool) -> u32 {
     if passing { 2 * bounces + 1 + USUAL_LAYERS } else { bounces + 1 }
 }
 
 impl Path {
-    /// The fetch of surfaces by drawing, where there is one.
+    /// Returns the fetch of surfaces by drawing, if the options ask for it.
     pub fn fetch(&self) -> Option<&Fetch> {
         self.fetch.as_ref()
     }
 
-    /// `traced` with surfaces found as the kernel expects them.
+    /// Returns `traced` with surfaces found as the kernel expects them.
     fn finding<'a>(&'a self, traced: Traced<'a>) -> Result<Traced<'a>, IntegratorError> {
         let traced = traced.with_fetch(self.fetch.as_ref());
         if self.of_hits { traced.with_surfaces_of_hits() } else { Ok(traced) }
     }
 
-    /// The rounds of paths whose shadow rays end at whatever they hit, and all of the film.
+    /// Records the rounds of paths whose shadow rays end at any hit, and all additions to the film.
     fn record_occluded(
         &self,
         recorder: &mut Recorder<'_>,
@@ -232,8 +233,8 @@ impl Path {
         Ok(())
     }
 
-    /// Rounds in which rays may pass surfaces, of a new wave or of the rest of one. Paths that end add to the
-    /// film.
+    /// Records rounds in which rays may pass surfaces, of a new wave or of the rest of one. Paths that end
+    /// add to the film.
     fn record_passing(
         &self,
         recorder: &mut Recorder<'_>,

@@ -1,4 +1,4 @@
-//! Photon maps: light that photons bring by mirrors and glass, or by any surface, and paths for the rest.
+//! Photon maps: photons carry light by mirrors and glass, or by any surface; paths carry the rest.
 
 use rasray_ads::RayQueue;
 use rasray_gpu::{Device, PassTiming, Recorder, Timing};
@@ -20,7 +20,7 @@ pub use map::PhotonMap;
 use options::{PHOTON_PATHS, PHOTONS, RADIUS};
 pub use options::{PhotonKind, PhotonOptions};
 
-/// The registry's row.
+/// Row of the registry.
 pub(super) const ROW: IntegratorRow = IntegratorRow {
     name: "photons",
     doc: "Photon maps: caustics, or all indirect light, by photons from the lights; the rest as path",
@@ -30,17 +30,18 @@ pub(super) const ROW: IntegratorRow = IntegratorRow {
     make: |desc, spec| Ok(Box::new(Photons::new(desc, PhotonOptions::of(spec))?)),
 };
 
-/// Paths that gather photons at rough surfaces. Each sample has a map of its own with a smaller radius than
-/// the one before, so that the mean over samples has no bias in the limit. The map is traced through the
-/// structure, once per sample, in waves of its own; it does not depend on how the picture is cut into waves.
+/// Photon mapping: paths that gather photons at rough surfaces. Each sample has a map of its own with a
+/// smaller radius than the one before, so that the mean over samples has no bias in the limit. The map is
+/// traced through the structure, once per sample, in waves of its own; it does not depend on the division of
+/// the picture into waves.
 ///
-/// Where surfaces blend, photons may need more rounds than are recorded, and what the camera sees can be
-/// gathered only after them: [`Integrator::render_wave`] waits for them, and frames are repeated with more
-/// rounds ([`Integrator::allow_more_rounds`]).
+/// If surfaces blend, photons may need more rounds than are recorded, and the camera's surfaces can gather
+/// only after them: [`Integrator::render_wave`] waits for them, and frames are repeated with more rounds
+/// ([`Integrator::allow_more_rounds`]).
 #[derive(Debug)]
 pub struct Photons {
     map: MapPasses,
-    /// Surfaces that the camera sees.
+    /// Paths from the camera.
     seen: Path,
     of_sample: SampleMap,
 }
@@ -49,7 +50,8 @@ impl Photons {
     /// Makes queues, states, kernels and the map.
     ///
     /// # Errors
-    /// An option out of its range, sizes that do not fit, out of memory, or the device refuses a pipeline.
+    /// An error for an option out of its range, sizes that do not fit, out of memory, or if the device
+    /// refuses a pipeline.
     pub fn new(desc: &IntegratorDesc<'_>, options: PhotonOptions) -> Result<Self, IntegratorError> {
         options.check()?;
         desc.check()?;
@@ -122,7 +124,7 @@ impl Integrator for Photons {
     }
 
     fn allow_more_rounds(&self) -> bool {
-        // Both: whose rays have not ended is not told apart.
+        // Both get more rounds: the faults do not tell whose rays have not ended.
         let map = self.map.rounds().allow_more();
         self.seen.allow_more_rounds() | map
     }

@@ -1,4 +1,4 @@
-//! Ray casting: what camera rays hit, lit from the eye.
+//! Ray casting: the first hits of camera rays, lit from the eye.
 
 use rasray_ads::{Domain, RayQueue};
 use rasray_gpu::Recorder;
@@ -11,7 +11,7 @@ use crate::{
     kernels::{Bindings, Kernel, camera_constants, film},
 };
 
-/// The registry's row.
+/// Row of the registry.
 pub(super) const ROW: IntegratorRow = IntegratorRow {
     name: "raycast",
     doc: "Surfaces that the camera sees, unlit",
@@ -26,8 +26,8 @@ pub(super) const ROW: IntegratorRow = IntegratorRow {
     make: |desc, _| Ok(Box::new(Raycast::new(desc)?)),
 };
 
-/// Emission plus base colour times the cosine between shading normal and ray; the environment where nothing
-/// is hit. One trace per wave.
+/// Ray casting: emission plus base colour times the cosine between shading normal and ray; the environment
+/// where nothing is hit. One trace per wave.
 #[derive(Debug)]
 pub struct Raycast {
     film: Film,
@@ -41,7 +41,7 @@ impl Raycast {
     /// Makes queue and kernels.
     ///
     /// # Errors
-    /// Sizes that do not fit, out of memory, or the device refuses a pipeline.
+    /// An error for sizes that do not fit, out of memory, or if the device refuses a pipeline.
     pub fn new(desc: &IntegratorDesc<'_>) -> Result<Self, IntegratorError> {
         let capacity = desc.check()?;
         let device = desc.device;

@@ -26,7 +26,7 @@ use options::{COMPACTION, RAY_DEPTH, SELECT, THRESHOLD};
 pub(super) use options::{MIRROR_ROUGHNESS, SHADOWS};
 pub use options::{RAY_DEPTH_LIMIT, Select, Shadows, WhittedOptions};
 
-/// The registry's row.
+/// Row of the registry.
 pub(super) const ROW: IntegratorRow = IntegratorRow {
     name: "whitted",
     doc: "Whitted's ray tracing: direct light, perfect reflections and refractions",
@@ -36,23 +36,25 @@ pub(super) const ROW: IntegratorRow = IntegratorRow {
     make: |desc, spec| Ok(Box::new(Whitted::new(desc, WhittedOptions::of(spec))?)),
 };
 
-/// Bindings of the states and of the rays that wait, as `integrators/whitted_storage.glsl` declares them.
+/// Bindings of the states and of the waiting rays, as `integrators/whitted_storage.glsl` declares them.
 const WHITTED_STATES: u32 = 9;
 const WHITTED_RAYS: u32 = 10;
 
-/// Rays of a tree, and surfaces passed in a straight line, that the rounds of a wave allow for at first.
+/// Number of rays of a tree, and of surfaces passed in a straight line, that the rounds of a wave allow for
+/// at first.
 const USUAL_RAYS: u32 = 15;
 const USUAL_LAYERS: u32 = 8;
 
-/// Most rounds that one recording of a wave has where surfaces may be passed; more are recorded as its rest.
+/// Largest number of rounds in one recording of a wave if surfaces may be passed; more are recorded as its
+/// rest.
 const ROUND_LIMIT: u32 = 1 << 14;
 
-/// Trees of rays: of each surface that a ray meets, its emission and one light sample, and the rays that it
-/// mirrors, refracts and lets pass. Every round traces one ray of each tree that has one left, and its shadow
-/// ray. The other rays of a surface wait, for no longer than it takes to trace the trees of those before
-/// them.
+/// Whitted's ray tracing: a tree of rays per sample. Each surface that a ray hits adds its emission and one
+/// light sample, and sends on mirrored, refracted and passing rays. Every round traces one ray of each tree
+/// that has one left, and its shadow ray. The other rays of a surface wait until the trees of those before
+/// them are traced.
 ///
-/// Where surfaces let light pass in a straight line, shadow rays go through them and are traced in rounds of
+/// If surfaces let light pass in a straight line, shadow rays go through them and are traced in rounds of
 /// their own, as with [`Path`](crate::Path).
 #[derive(Debug)]
 pub struct Whitted {
@@ -67,7 +69,7 @@ pub struct Whitted {
     queue: RayQueue,
     states: Buffer,
     waiting: Buffer,
-    /// Queue and kernel of the tests of light samples where whatever a ray hits stops it; else shadow rays
+    /// Queue and kernel of the tests of light samples, if any hit stops a shadow ray; otherwise shadow rays
     /// are in the queue of all others.
     shadows: Option<(RayQueue, Kernel)>,
     bindings: Bindings,
@@ -75,16 +77,16 @@ pub struct Whitted {
     shade: Kernel,
 }
 
-/// The kernels of trees of rays, and what they are bound to beside what all trees have.
+/// Kernels of trees of rays, and the buffers that they bind besides those of all trees.
 pub(super) struct TreeKernels<'a> {
-    /// Makes the first ray of every tree.
+    /// Kernel of the first ray of every tree.
     pub first_rays: &'static Shader,
-    /// Shades, where surfaces stop light.
+    /// Kernel that shades if surfaces stop light.
     pub shade: &'static Shader,
-    /// Shades, where they let it pass.
+    /// Kernel that shades if surfaces let light pass.
     pub shade_passing: &'static Shader,
     pub bound: &'a [Bound<'a>],
-    /// First rays go on behind the backs of smooth surfaces.
+    /// True if first rays go on behind the backs of smooth surfaces.
     pub passes_backs: bool,
 }
 
@@ -96,14 +98,14 @@ const WHITTED: TreeKernels<'_> = TreeKernels {
     passes_backs: false,
 };
 
-/// Shape of the trees of rays, by how surfaces of a scene send rays on.
+/// Shape of the trees of rays, by the rays that surfaces of a scene send on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Trees {
-    /// They mirror.
+    /// Surfaces mirror.
     Chains,
-    /// They mirror and refract.
+    /// Surfaces mirror and refract.
     Binary,
-    /// They let rays pass in a straight line as well.
+    /// Surfaces also let rays pass in a straight line.
     Passing { refracts: bool },
 }
 
@@ -116,7 +118,7 @@ impl Trees {
         }
     }
 
-    /// Rounds that a wave has at first, and at most.
+    /// Returns the number of rounds that a wave has at first, and the largest.
     fn rounds(self, depth: u32, passes_backs: bool) -> [u32; 2] {
         let rays = (2 << depth) - 1;
         match self {
@@ -127,9 +129,9 @@ impl Trees {
         }
     }
 
-    /// Most rays of a tree that wait at a time. Above the surface that is shaded, each one of the way there
-    /// has as many rays waiting as it sends on beside the first. Where surfaces are passed, all rays of the
-    /// one shaded wait as well.
+    /// Returns the largest number of rays of a tree that wait at a time. Each surface on the way to the
+    /// shaded one has as many waiting rays as it sends on besides the first. If surfaces are passed, all rays
+    /// of the shaded one wait as well.
     fn waiting(self, depth: u32) -> u32 {
         match self {
             Self::Chains => 0,
@@ -143,13 +145,14 @@ impl Whitted {
     /// Makes queues, states and kernels.
     ///
     /// # Errors
-    /// An option out of its range, sizes that do not fit, out of memory, or the device refuses a pipeline.
+    /// An error for an option out of its range, sizes that do not fit, out of memory, or if the device
+    /// refuses a pipeline.
     pub fn new(desc: &IntegratorDesc<'_>, options: WhittedOptions) -> Result<Self, IntegratorError> {
         desc.check()?;
         Self::of_trees(desc, options, &WHITTED)
     }
 
-    /// Makes it with other kernels, and with a film of any size.
+    /// Makes the integrator with other kernels, and with a film of any size.
     pub(super) fn of_trees(
         desc: &IntegratorDesc<'_>,
         options: WhittedOptions,
@@ -205,19 +208,19 @@ impl Whitted {
         })
     }
 
-    /// Sets that its kernels are bound to.
+    /// Returns the sets that the kernels are bound to.
     pub(super) fn bindings(&self) -> &Bindings {
         &self.bindings
     }
 
-    /// Constants of a round for its kernels.
+    /// Returns the constants of a round as the kernels expect them.
     fn told(&self, round: WaveConstants) -> WaveConstants {
         let WhittedOptions { ray_depth, select, threshold, .. } = self.options;
         let number = if select == Select::Expected { threshold } else { 0.0 };
         WaveConstants { limit: ray_depth, number, marks: round.marks | self.options.marks(), ..round }
     }
 
-    /// Rounds of a new wave, or of the rest of one. Trees that end add to the film.
+    /// Records rounds of a new wave, or of the rest of one. Trees that end add to the film.
     fn record_rounds(
         &self,
         recorder: &mut Recorder<'_>,
@@ -238,8 +241,8 @@ impl Whitted {
     }
 }
 
-/// Slots of which each has so many bytes in a buffer that one binding holds: at most `capacity`, at least
-/// one.
+/// Returns the number of slots, of `slot_bytes` bytes each, that one binding can hold: at most `capacity`, at
+/// least one.
 fn fitting(capacity: u32, slot_bytes: u64, limit: u64) -> u32 {
     let fitting = limit.checked_div(slot_bytes).unwrap_or(u64::MAX).max(1);
     capacity.min(u32::try_from(fitting).unwrap_or(u32::MAX))

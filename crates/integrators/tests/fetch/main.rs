@@ -1,4 +1,4 @@
-//! Surfaces fetched by drawing, against those of the structure: they must be the same in every bit, in every
+//! Surfaces fetched by drawing, against those of the structure: they must be equal in every bit, in every
 //! round of a path.
 
 use crate::kept_pictures::Compared;
@@ -17,7 +17,7 @@ use rasray_integrators::{
 use rasray_scene::{Camera, Projection, Scene, builtin};
 use rasray_shaders_glsl::constants::integrators::FETCH_PART;
 
-/// A scene as one camera sees it.
+/// Scene as one camera sees it.
 struct Stage {
     device: Device,
     scene: GpuScene,
@@ -72,7 +72,7 @@ impl Stage {
         Rendered { waves: seen, image: film.read(&self.device).expect("readable"), counts, bytes }
     }
 
-    /// Compares the hits and surfaces that both leave after each number of bounces, and the images.
+    /// Compares the hits and surfaces that both methods leave after each number of bounces, and the images.
     fn compare(&self, name: &str, capacity: u32) -> FetchCounts {
         let mut all = FetchCounts::default();
         let triangles = self.scene.geometry().triangle_count();
@@ -117,7 +117,7 @@ impl Stage {
     }
 }
 
-/// The page's formula: docs/systems/dirt.md, "Fetch by drawing".
+/// Formula of the page: docs/systems/dirt.md, "Fetch by drawing".
 fn formula_bytes(rays: u32, triangles: u32) -> u64 {
     let side = (f64::from(rays) / 6.0).sqrt().ceil() as u64;
     36 + 12 * u64::from(rays) + 8 * 6 * side * side + 4 * u64::from(triangles).div_ceil(32)
@@ -154,7 +154,7 @@ fn surfaces_of_triangles_of_every_size_and_place_are_fetched() {
         let size = 10.0_f64.powf(2.0 * random.next() - 1.0) * middle.length();
         triangles.push([0, 1, 2].map(|_| middle + random.point() * size));
     }
-    // One through the camera, one just before it, and one seen edge-on.
+    // One triangle goes through the camera, one lies just before it, and one is seen edge-on.
     let (eye, forward) = (DVec3::new(0.01, -0.02, 0.03), DVec3::new(0.3, -0.2, -0.9).normalize());
     triangles.push([eye - DVec3::X, eye + DVec3::X + DVec3::Y * 0.1, eye + DVec3::X - DVec3::Y * 0.1]);
     let across = forward.cross(DVec3::Y).normalize() * 1e-7;
@@ -174,7 +174,7 @@ fn surfaces_of_triangles_of_every_size_and_place_are_fetched() {
     }
 }
 
-/// From far away all hits are in a few pixels of the cube: lists are read in parts.
+/// From far away all hits are in a few pixels of the cube, so lists are read in parts.
 #[test]
 fn lists_longer_than_a_part_are_fetched() {
     let (device, _turn) = drawing_device();
@@ -194,7 +194,7 @@ fn devices_that_cannot_draw_are_refused() {
     let stage = Stage::new(&device, &cornell, cornell.cameras[0].clone(), [4, 4]);
     let film = Film::new(&device, 4, 4).expect("the film fits");
     let desc = IntegratorDesc::new(&device, &stage.scene, &film);
-    // The feature was not asked for.
+    // The device was made without the feature.
     let options = PathOptions { fetch: Fetching::Raster, ..PathOptions::from(1) };
     let refused = Path::new(&desc, options).expect_err("stores of fragments are missing");
     assert!(matches!(refused, IntegratorError::CannotFetch { .. }), "{refused:?}");
@@ -202,7 +202,7 @@ fn devices_that_cannot_draw_are_refused() {
     assert_silent(&device);
 }
 
-/// Without a scene a structure has no surfaces, whoever looks them up.
+/// Without a scene a structure has no surfaces, for any kernel that looks them up.
 #[test]
 fn surfaces_of_hits_are_refused_where_a_structure_has_none() {
     let device = device();

@@ -1,5 +1,4 @@
-//! The page of integrators is what the registry says: `docs/integrators.md`. `RASRAY_WRITE_PAGES=1` writes
-//! it.
+//! The page of integrators, `docs/integrators.md`, must match the registry. `RASRAY_WRITE_PAGES=1` writes it.
 
 use std::fmt::Write as _;
 use std::path::Path;

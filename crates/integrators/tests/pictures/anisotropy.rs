@@ -11,8 +11,8 @@ use crate::pictures::common::{
     *,
 };
 
-/// With directions from a texture over a normal map, from texture coordinates alone, and on a mirrored
-/// instance.
+/// Makes a room of brushed metal: with directions from a texture over a normal map, from texture coordinates
+/// alone, and on a mirrored instance.
 fn brushed_room() -> Scene {
     let mut scene = textured_room();
     let direction = TextureRef { texture: 2, uv_set: 0, uv_transform: [[2.0, 0.1, 0.0], [0.3, 1.5, 0.2]] };
@@ -59,14 +59,14 @@ fn brushed_surfaces_are_those_of_the_naive_integrator() {
     println!("Ward: {found:?}, without {apart:?}");
     found.assert_within(0.02, 5e-3, "anisotropy");
     apart.assert(apart.share > 0.2, "anisotropy shows");
-    // Light samples of smooth shapes see the same facets.
+    // Light samples of smooth shapes use the same facets.
     let smooth = path(2).with("shadow-terminator", "offset").expect("valid");
     let found = difference(&tangents, &tangents, &eye, 4, &smooth);
     found.assert_within(0.02, 5e-3, "anisotropy");
 }
 
-/// Glass that light is refracted by, a smooth pane that is one no more, and meshes that nothing says the
-/// tangents of.
+/// The scene has refracting glass, a smooth pane that anisotropy makes rough, and meshes without a source of
+/// tangents.
 #[test]
 fn brushed_glass_is_that_of_the_naive_integrator() {
     let mut scene = glass_room();
@@ -85,7 +85,7 @@ fn brushed_glass_is_that_of_the_naive_integrator() {
     apart.assert(apart.share > 0.05, "anisotropy shows");
 }
 
-/// Where no material is anisotropic, kernels have no code for it, and pictures are the same with it.
+/// If no material is anisotropic, kernels have no code for it, and pictures are the same with that code.
 #[test]
 fn code_for_it_changes_nothing_where_there_is_none() {
     let device = device();

@@ -1,5 +1,5 @@
-//! Scenes that nobody here made, device against CPU. They are found through the environment variable
-//! `RASRAY_SCENES`; without it nothing is tested, which the output says.
+//! Scenes from other authors, device against CPU. They are found through the environment variable
+//! `RASRAY_SCENES`; without it nothing is tested, and the output says so.
 
 use std::path::PathBuf;
 
@@ -17,7 +17,7 @@ const FILES: [&str; 6] = [
     "pbr/AlphaBlendModeTest/AlphaBlendModeTest.glb",
 ];
 
-/// Rendered as well where `RASRAY_FULL` is 1.
+/// Files that are rendered as well where `RASRAY_FULL` is 1.
 const MORE_FILES: [&str; 16] = [
     "conformance/NegativeScaleTest/NegativeScaleTest.glb",
     "conformance/TextureTransformTest/TextureTransformTest.gltf",
@@ -44,13 +44,13 @@ fn real_scenes_look_the_same_on_device_and_cpu() {
         return;
     };
     let mut failed = Vec::new();
-    // As `rasray_tests::tier` says, which is above this crate.
+    // The rule is that of `rasray_tests::tier`, which is above this crate.
     let is_full = std::env::var_os("RASRAY_FULL").is_some_and(|value| value == "1");
     let more = if is_full { &MORE_FILES[..] } else { &[] };
     for &file in FILES.iter().chain(more) {
         let start = std::time::Instant::now();
         let mut scene = rasray_scene_files::load(&folder.join(file), &LoadOptions::default()).expect(file);
-        // Whatever else shines: some emit too little to be compared.
+        // The scenes get an environment in addition to their lights: some emit too little for a comparison.
         scene.environment = Environment::Constant([0.6, 0.7, 0.8]);
         let camera = scene.cameras.first().cloned().unwrap_or_else(|| default_camera(&scene));
         let found = difference(&scene, &scene, &camera, 1, &path(2));

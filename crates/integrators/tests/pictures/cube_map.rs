@@ -1,4 +1,4 @@
-//! Environment mapping against Whitted's ray tracing, and what its map is drawn from.
+//! Environment mapping against Whitted's ray tracing, and the point from which its map is drawn.
 
 use glam::DVec3;
 use rasray_integrators::{
@@ -28,21 +28,21 @@ fn whitted(stage: &Setup, samples: u32) -> Vec<[f32; 3]> {
     stage.render(&Whitted::new(&stage.desc(), WhittedOptions::default()).expect("valid"), samples)
 }
 
-/// A ball that mirrors, before the eye.
+/// Makes a mirroring ball before the eye.
 fn mirror_ball(environment: Environment) -> (Scene, Camera) {
     let mut scene = scene(vec![ball(DVec3::ZERO, 0.5, 0)], vec![mirror(0.8)], [0.0; 3]);
     scene.environment = environment;
     (scene, forward_camera(DVec3::Z * 1.3))
 }
 
-/// Sum of the differences over the sum of the picture.
+/// Returns the sum of the differences over the sum of the picture.
 fn error(image: &[[f32; 3]], expected: &[[f32; 3]]) -> f64 {
     let light = expected.iter().flatten().map(|&light| f64::from(light)).sum::<f64>();
     let off = |(a, b): (&f32, &f32)| f64::from(a - b).abs();
     image.as_flattened().iter().zip(expected.as_flattened()).map(off).sum::<f64>() / light
 }
 
-/// The map of what is infinitely far shows what rays find, wherever they start.
+/// The map of an infinitely distant environment shows the light that rays find, wherever they start.
 #[test]
 fn an_environment_alone_is_that_of_whitted_up_to_the_filter_of_texels() {
     let device = device();
@@ -68,8 +68,7 @@ fn an_environment_alone_is_that_of_whitted_up_to_the_filter_of_texels() {
     assert_silent(&device);
 }
 
-/// Surroundings at a distance, of six colours, as they are seen from the centre and from the surface of a
-/// ball.
+/// Surroundings at a distance, of six colours, are seen from the centre and from the surface of a ball.
 #[test]
 fn the_error_falls_as_the_surroundings_recede() {
     let device = device();
@@ -95,7 +94,7 @@ fn the_error_falls_as_the_surroundings_recede() {
     assert_silent(&device);
 }
 
-/// Balls of mirrors, glass and veils around the point, under lights of both kinds.
+/// Makes balls of mirrors, glass and veils around the point, under lights of both kinds.
 fn surroundings() -> (Scene, Camera) {
     let (mut scene, eye) = mirror_ball(Environment::Constant([0.2, 0.3, 0.4]));
     let veil = |opacity: f32| {
@@ -130,7 +129,7 @@ fn the_map_is_that_of_the_naive_integrator() {
     for spec in [with("cube-resolution", "40"), with("cube-resolution", "8")] {
         let found = difference(&scene, &scene, &eye, 4, &spec);
         println!("{:?}: {found:?}", spec.options());
-        // Where the ball's facets end, a ray may be reflected by one or by the next.
+        // Where the ball's facets meet, a ray may be reflected by one or by the next.
         found.assert_within(0.02, 0.01, format_args!("{:?}", spec.options()));
     }
 }
@@ -146,7 +145,7 @@ fn waves_and_ways_to_record_them_change_no_picture() {
     let cut = CubeMap::new(&stage.desc_with(37, features), options).expect("valid");
     assert!(stage.render(&cut, 2) == expected, "nine waves a sample draw one map");
 
-    // As frames record it: more rounds until no ray is left.
+    // Frames are recorded with more rounds until no ray is left.
     let (width, height) = (20, 15);
     let whole = CubeMap::new(&stage.desc(), options).expect("valid");
     let wave = |sample| Wave { first_pixel: 0, pixel_count: width * height, sample };
@@ -167,7 +166,7 @@ fn waves_and_ways_to_record_them_change_no_picture() {
     assert_silent(&device);
 }
 
-/// More veils around the point than rounds are recorded at first.
+/// There are more veils around the point than rounds that are recorded at first.
 #[test]
 fn what_lies_behind_many_veils_is_in_the_map() {
     let (mut scene, eye) = surroundings();

@@ -29,7 +29,7 @@ fn a_scene_without_triangles_shows_its_environment() {
 #[test]
 fn ambient_occlusion_sees_what_is_within_its_range() {
     let device = device();
-    // A floor under a ceiling that covers all of its sky, 2 m above.
+    // A floor lies under a ceiling, 2 m above, that covers all of its sky.
     let meshes = vec![
         square(DVec3::new(0.0, 0.0, -4.0), DVec3::X, -DVec3::Z, 0),
         square(DVec3::new(0.0, 2.0, 0.0), DVec3::X * 1e4, DVec3::Z * 1e4, 0),
@@ -44,7 +44,7 @@ fn ambient_occlusion_sees_what_is_within_its_range() {
     let stage = Setup::new(&device, &scene, down, 8, 8, 3);
     let image = |range| stage.render(&AmbientOcclusion::new(&stage.desc(), range).expect("valid"), 8);
     assert_eq!(image(1.9), vec![[1.0; 3]; 64]);
-    // Nearly everything: only rays within 1/5000 of the horizon escape.
+    // Nearly everything is occluded: only rays within 1/5000 of the horizon escape.
     assert!(mean(&image(f32::INFINITY)) < 0.01);
     // The ceiling within a range r covers the cone of cosine 2/r: 1 - (2/r)^2 of the weight.
     let visible = mean(&image(4.0));
@@ -95,7 +95,7 @@ fn a_point_light_falls_off_with_distance_and_cosine_and_casts_shadows() {
         let expected = 0.5 * (2.0 / squared.sqrt()) / squared;
         assert!((mean(&image) - expected).abs() < 1e-3 * expected, "{x}: {} {expected}", mean(&image));
     }
-    // A small square between light and floor.
+    // A small square stands between light and floor.
     scene.meshes.push(square(DVec3::new(0.0, 1.5, 0.0), DVec3::X * 0.1, -DVec3::Z * 0.1, 0));
     scene.instances.push(rasray_scene::Instance {
         name: "blocker".to_owned(),
@@ -112,7 +112,8 @@ fn a_point_light_falls_off_with_distance_and_cosine_and_casts_shadows() {
 fn a_polished_metal_of_leaning_normals_is_white_in_a_white_furnace() {
     let device = device();
     let mut floor = square(DVec3::ZERO, DVec3::X, DVec3::Y, 0);
-    // As a bumpy surface is interpolated: some corners lean so far that a mirrored ray would go below it.
+    // Normals are interpolated as on a bumpy surface: some corners lean so far that a mirrored ray would go
+    // below it.
     floor.normals = Some(vec![[0.0, 0.0, 1.0], [-0.8, 0.0, 0.6], [0.6, 0.6, 0.53], [0.0, -0.95, 0.31]]);
     let polished = Material { metallic: 1.0, roughness: 0.0, ..lambert(1.0, 0.0) };
     let scene = scene(vec![floor], vec![polished], [1.0; 3]);
@@ -200,7 +201,7 @@ fn pixel_centres_know_distance_normal_and_primitive() {
     assert_silent(&device);
 }
 
-/// A box with a lamp, glass-like and blended parts: enough for every kernel to have work.
+/// Makes a box with a lamp, glass-like and blended parts, so that every kernel has work.
 fn busy_scene() -> Scene {
     let mut glass = lambert(0.9, 0.0);
     glass.transmission = 0.8;
@@ -269,7 +270,7 @@ fn code_that_is_left_out_does_not_change_the_picture() {
 fn facets_that_no_material_has_change_nothing() {
     let device = device();
     let mut scene = busy_scene();
-    // A black one has neither a base nor facets; what is smooth has no mirror without them.
+    // The black material has neither a base nor facets; smooth surfaces have no mirror without facets.
     (scene.materials[2], scene.materials[3]) = (lambert(0.0, 0.0), lambert(0.7, 0.0));
     scene.materials[3].roughness = 0.0;
     let stage = Setup::new(&device, &scene, forward_camera(DVec3::new(0.0, 0.0, 0.9)), 24, 18, 5);
@@ -298,7 +299,7 @@ fn shadow_rays_say_which_light_they_lead_to() {
     let mut scene = busy_scene();
     scene.materials[2].transmission = 0.0;
     scene.materials[3].alpha_mode = rasray_scene::AlphaMode::Opaque;
-    // The last round replaces the shadow rays of paths that go on; facets of rough metal end some in the
+    // The last round replaces the shadow rays of paths that continue; facets of rough metal end some in the
     // first.
     (scene.materials[0].metallic, scene.materials[0].roughness) = (1.0, 1.0);
     let places = [DVec3::new(-0.8, 0.5, 0.2), DVec3::new(0.7, -0.6, 0.4)];

@@ -1,4 +1,4 @@
-//! Ray casting through layers: against closed forms, and against a count of everything that lies along a ray.
+//! Ray casting through layers: against closed forms, and against a count of all surfaces along a ray.
 
 use glam::DVec3;
 use rasray_gpu::Timing;
@@ -18,14 +18,14 @@ fn flat_camera() -> Camera {
     camera(DVec3::ZERO, DVec3::X, DVec3::Y, Projection::Orthographic { half_height: 1.0 })
 }
 
-/// A material that shines by itself, from both sides.
+/// Makes a material that emits on both sides.
 fn shining(color: [f32; 3], alpha: f32) -> Material {
     let [r, g, b] = color;
     let mode = if alpha < 1.0 { AlphaMode::Blend } else { AlphaMode::Opaque };
     Material { base_color: [r, g, b, alpha], unlit: true, alpha_mode: mode, ..lambert(0.0, 0.0) }
 }
 
-/// Sheets across the view, one after the other, each with a colour and an opacity of its own.
+/// Makes sheets across the view, one after the other, each with a colour and an opacity of its own.
 fn sheets(count: u32, apart: f64) -> (Scene, Vec<([f64; 3], f64)>) {
     let of = |sheet: u32| {
         let alpha = if sheet % 3 == 2 { 1.0 } else { 0.2 + 0.05 * (sheet % 7) as f32 };
@@ -40,7 +40,7 @@ fn sheets(count: u32, apart: f64) -> (Scene, Vec<([f64; 3], f64)>) {
     (scene(meshes.collect(), materials, SKY), expected.collect())
 }
 
-/// Front to back: what each sheet adds, and the sky behind the last one that is there.
+/// Adds front to back the colour of each sheet, and the sky behind the last sheet that is shown.
 fn closed_form(sheets: &[([f64; 3], f64)], limit: Option<u32>, opacity: f32) -> [f64; 3] {
     let (mut sum, mut left) = ([0.0; 3], 1.0);
     for (color, alpha) in &sheets[..limit.map_or(sheets.len(), |limit| sheets.len().min(limit as usize))] {
@@ -71,7 +71,7 @@ fn sheets_add_up_front_to_back() {
             seen.push(image[0]);
         }
     }
-    // Opaque sheets hide what is behind the third one, and nothing else does.
+    // Opaque sheets hide the surfaces behind the third one, and no other sheet hides any.
     assert_eq!(seen[0], seen[3], "the fourth sheet and those behind it are hidden");
     assert!(seen[6] != seen[9] && seen[6] == seen[10] && seen[6] == seen[11]);
     let faults = stage.film.read_faults(&device).expect("readable");
@@ -79,7 +79,7 @@ fn sheets_add_up_front_to_back() {
     assert_silent(&device);
 }
 
-/// The first surface at full opacity is all that ray casting shows, bit for bit.
+/// One layer at full opacity equals ray casting, bit for bit.
 #[test]
 fn one_opaque_layer_is_ray_casting() {
     let device = device();
@@ -96,7 +96,7 @@ fn one_opaque_layer_is_ray_casting() {
     assert!(!are_same(&device, &through, &raycast), "something lies behind");
 }
 
-/// White triangles of half opacity before a black sky: n of them send `1 - 2^-n`, exactly.
+/// Makes white triangles of half opacity before a black sky: n of them send `1 - 2^-n`, exactly.
 fn soup(count: u32, seed: u32) -> Scene {
     let mut state = seed;
     let mut random = || {
@@ -135,7 +135,7 @@ fn rays_pass_as_many_surfaces_as_there_are() {
             seed: SEED,
             sampler: Sampler::default(),
         };
-        // Every triangle by itself: nothing here goes on behind anything.
+        // Each triangle is rendered alone, so that no ray goes on behind a surface.
         let alone: Vec<_> = scene
             .meshes
             .iter()
@@ -161,7 +161,7 @@ fn rays_pass_as_many_surfaces_as_there_are() {
     assert_silent(&device);
 }
 
-/// The rest of a wave is counted until it is rendered, and rays that pass too many surfaces are.
+/// The rest of a wave is counted until it is rendered, and rays that pass too many surfaces stay counted.
 #[test]
 fn rounds_are_recorded_until_rays_end() {
     let device = device();
@@ -190,7 +190,7 @@ fn rounds_are_recorded_until_rays_end() {
     assert!(pixels[..2].iter().all(|pixel| pixel.samples == 1) && pixels[2].samples == 0);
     assert!(layers.allow_more_rounds() && layers.traces_per_wave() == 16);
 
-    // One more than a ray may pass. Where so few are asked for, nothing is missing.
+    // The scene has one surface more than a ray may pass. With a limit of so few, nothing is missing.
     let endless = stage(PATH_LAYER_LIMIT + 1);
     for (limit, cut) in [(None, 2), (Some(PATH_LAYER_LIMIT), 0)] {
         let layers = Layers::new(&endless.desc(), limit, 1e-3).expect("valid");

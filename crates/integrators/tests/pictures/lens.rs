@@ -1,4 +1,4 @@
-//! Cameras with a lens: what is in focus stays sharp, and the rest is spread over circles of confusion.
+//! Cameras with a lens: points in focus stay sharp, and others are spread over circles of confusion.
 
 use glam::DVec3;
 use rasray_gpu::{Device, DeviceDesc, Timing};
@@ -18,7 +18,7 @@ fn open(aperture: f32, focus: f32) -> Camera {
     Camera { lens: Some(Lens { aperture, focus }), ..pinhole }
 }
 
-/// A lamp of this half size before the camera, `depth` metres away, and nothing else.
+/// Makes a lamp of this half size before the camera, `depth` metres away, and no other object.
 fn lamp(half: f64, depth: f64) -> Scene {
     let material = Material { base_color: [1.0; 4], unlit: true, ..lambert(0.0, 0.0) };
     let square = square(DVec3::new(0.0, 0.0, -depth), DVec3::X * half, DVec3::Y * half, 0);
@@ -27,8 +27,8 @@ fn lamp(half: f64, depth: f64) -> Scene {
 
 /// A lamp of side s at depth z lights, in the plane in focus at depth f, a square of side `s f / z` spread
 /// over a disk of the diameter of the circle of confusion, `aperture |f - z| / z`. The mean of the squared
-/// distance from the middle is that of the disk, `diameter^2 / 8`, plus that of the square and of a pixel,
-/// `side^2 / 6` each.
+/// distance from the middle is the sum of that of the disk, `diameter^2 / 8`, and of `side^2 / 6` for the
+/// square and for a pixel.
 #[test]
 fn what_is_out_of_focus_is_spread_over_a_circle_of_confusion() {
     let device = device();
@@ -58,11 +58,11 @@ fn what_is_out_of_focus_is_spread_over_a_circle_of_confusion() {
         let hits = light * f64::from(samples);
         let found = moment / light;
         println!("aperture {aperture}, focus {focus}, lamp at {depth}: {hits} hits, {found} for {expected}");
-        // The squared distance in a disk has a standard deviation of `diameter^2 / (8 sqrt 3)`: five of those
-        // of the mean.
+        // The squared distance in a disk has a standard deviation of `diameter^2 / (8 sqrt 3)`: the bound is
+        // five of those of the mean.
         let error = 5.0 * (diameter * diameter / 8.0) / 3f64.sqrt() / hits.sqrt();
         assert!((found - expected).abs() < error && error < 0.1 * expected, "{found}, not {expected}");
-        // A pinhole sees as much of it.
+        // A pinhole sees the lamp with the same total.
         let whole = (side / pixel).powi(2);
         assert!((light / whole - 1.0).abs() < 5.0 / hits.sqrt(), "{light} pixels, not {whole}");
         let middle = sum.map(|sum| (sum / light).abs());
@@ -71,7 +71,7 @@ fn what_is_out_of_focus_is_spread_over_a_circle_of_confusion() {
     assert_silent(&device);
 }
 
-/// Every ray of a sample meets the others in the plane in focus, so nothing there depends on the lens.
+/// All rays of a sample meet in the plane in focus, so the image of that plane does not depend on the lens.
 #[test]
 fn what_is_in_focus_is_sharp() {
     let device = device();
@@ -106,7 +106,7 @@ fn lenses_of_the_device_are_those_of_the_naive_integrators() {
     found.assert_within(0.02, 0.01, "a room with a veil");
 }
 
-/// Further images are of what is seen through the centre of the lens.
+/// Further images show the view through the centre of the lens.
 #[test]
 fn further_images_do_not_depend_on_the_lens() {
     let device = device();
@@ -127,7 +127,7 @@ fn further_images_do_not_depend_on_the_lens() {
     assert_eq!(images(open), images(None));
 }
 
-/// Drawing is through a pinhole: nothing is shown that a lens would see otherwise.
+/// Drawing is through a pinhole: it answers no ray that a lens would change.
 #[test]
 fn what_is_drawn_has_no_answer_through_a_lens() {
     let requirements = Visibility::requirements();

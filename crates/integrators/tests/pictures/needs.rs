@@ -1,4 +1,4 @@
-//! Data that a render cannot observe is left out without a change of the picture.
+//! Data that a render cannot observe are left out without a change of the picture.
 
 use crate::pictures::common::{difference::*, scenes::*, *};
 use glam::DVec3;
@@ -7,7 +7,7 @@ use rasray_gpu_scene::{Parts, View};
 use rasray_integrators::IntegratorSpec;
 use rasray_scene::{Camera, Scene, needs::Needs};
 
-/// Bytes uploaded and the picture.
+/// Returns the uploaded bytes and the picture.
 fn image(
     device: &Device,
     scene: &Scene,

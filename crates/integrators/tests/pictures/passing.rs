@@ -1,4 +1,4 @@
-//! Rays that pass surfaces in a straight line, however many there are.
+//! Rays that pass any number of surfaces in a straight line.
 
 use glam::DVec3;
 use rasray_gpu::Timing;
@@ -16,7 +16,7 @@ fn veil(alpha: f32) -> Material {
     veil
 }
 
-/// A wall in the sun, behind layers as close to each other as `apart`.
+/// Makes a wall in the sun, behind layers at distances of `apart`.
 fn behind(layers: u32, apart: f64, material: Material) -> Scene {
     let mut meshes = vec![square(DVec3::new(0.0, 0.0, -50.0), DVec3::X * 60.0, DVec3::Y * 60.0, 0)];
     meshes.extend((0..layers).map(|i| {
@@ -56,7 +56,7 @@ fn the_rest_of_a_wave_is_counted_until_it_is_rendered() {
     let continued = layered.film.read_pixels(&device).expect("readable");
     assert!(continued.iter().all(|pixel| pixel.samples == 1));
 
-    // Recorded at once it is the same picture, and that without layers.
+    // Recorded at once, the picture is the same, and equals that without layers.
     let whole = Path::new(&layered.desc(), 1).expect("valid");
     while whole.traces_per_wave() < 110 {
         assert!(whole.allow_more_rounds());
@@ -78,8 +78,8 @@ fn the_rest_of_a_wave_is_counted_until_it_is_rendered() {
 #[test]
 fn rounds_end_and_so_do_rays_which_is_counted() {
     let device = device();
-    // Two layers more than the camera's ray may pass; the wall's shadow ray would have passed them all as
-    // well.
+    // There are two layers more than the camera's ray may pass; the wall's shadow ray would have passed them
+    // all as well.
     let layered = stage(&device, &behind(PATH_LAYER_LIMIT + 2, 0.01, veil(0.0)));
     let path = Path::new(&layered.desc(), 1).expect("valid");
     let wave = Wave { first_pixel: 0, pixel_count: 2, sample: 0 };
@@ -107,7 +107,7 @@ fn shadows_follow_the_alpha_of_textures() {
     let mut sheet = veil(1.0);
     sheet.base_color_texture =
         Some(TextureRef { texture: 0, uv_set: 0, uv_transform: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]] });
-    // Between floor and sun, and above the camera.
+    // The sheet is between floor and sun, and above the camera.
     let mut above = square(DVec3::new(0.0, 0.0, 2.0), DVec3::X * 4.0, DVec3::Y * 4.0, 1);
     above.uvs[0] = Some(vec![[0.0, 1.0], [1.0, 1.0], [1.0, 0.0], [0.0, 0.0]]);
     let floor = square(DVec3::new(0.0, 0.0, -1.0), DVec3::X * 4.0, DVec3::Y * 4.0, 0);
@@ -133,7 +133,7 @@ fn shadows_follow_the_alpha_of_textures() {
     assert_silent(&device);
 }
 
-/// Without a smooth thin pane or a blended material nothing is recorded that was not; with one, options
+/// Without a smooth thin pane or a blended material no further rounds are recorded; with one, the options
 /// decide.
 #[test]
 fn only_scenes_that_let_light_pass_record_more() {

@@ -1,4 +1,4 @@
-//! Photon maps: what is stored, what is gathered of it, and against closed forms and paths.
+//! Photon maps: the stored photons, the gathered light, and comparisons with closed forms and paths.
 
 use std::f64::consts::PI;
 
@@ -30,7 +30,8 @@ fn render(stage: &Setup, options: PhotonOptions, samples: u32) -> Vec<[f32; 3]> 
     image
 }
 
-/// Looks down at the floor from a height, and sees so much of it from its centre.
+/// Makes a camera that looks down at the floor from a height, and sees `half` of it to each side of its
+/// centre.
 fn from_above(height: f64, half: f32) -> Camera {
     let projection = Projection::Orthographic { half_height: half };
     camera(DVec3::Y * height, DVec3::X, -DVec3::Z, projection)
@@ -49,13 +50,14 @@ fn point_light(height: f64, intensity: f32) -> Option<Light> {
     Some(Light::Point { position, intensity: [intensity; 3], range: f32::INFINITY })
 }
 
-/// Metres from the middle of the picture of [`from_above`], at the middle of a pixel of a square one.
+/// Iterates over the positions of the pixel centres of a square picture, in metres from the middle of the
+/// picture of [`from_above`].
 fn places(side: u32, half: f64) -> impl Iterator<Item = [f64; 2]> {
     let place = move |index: u32| (2.0 * (f64::from(index) + 0.5) / f64::from(side) - 1.0) * half;
     (0..side * side).map(move |pixel| [place(pixel % side), place(pixel / side)])
 }
 
-/// The mean of the picture of each sample.
+/// Returns the mean of the picture of each sample.
 fn sample_means(stage: &Setup, integrator: &dyn Integrator, samples: u32) -> Vec<f64> {
     let [width, height] = stage.scene.image_size();
     let mean_of = |sample| {
@@ -68,7 +70,7 @@ fn sample_means(stage: &Setup, integrator: &dyn Integrator, samples: u32) -> Vec
     (0..samples).map(mean_of).collect()
 }
 
-/// The mean of numbers and its standard error.
+/// Returns the mean of numbers and its standard error.
 fn estimate(numbers: impl IntoIterator<Item = f64>) -> [f64; 2] {
     let numbers: Vec<f64> = numbers.into_iter().collect();
     let count = numbers.len() as f64;
@@ -77,12 +79,12 @@ fn estimate(numbers: impl IntoIterator<Item = f64>) -> [f64; 2] {
     [average, (squares / (count - 1.0) / count).sqrt()]
 }
 
-/// The mean difference of two kinds of samples with the same random numbers, and its standard error.
+/// Returns the mean difference of two kinds of samples with the same random numbers, and its standard error.
 fn difference_of(samples: &[f64], others: &[f64]) -> [f64; 2] {
     estimate(samples.iter().zip(others).map(|(sample, other)| sample - other))
 }
 
-/// A closed box whose walls shine inwards and reflect the same share everywhere.
+/// The scene is a closed box whose walls emit inwards and reflect the same share everywhere.
 #[test]
 fn a_furnace_keeps_its_flux() {
     const ALBEDO: f64 = 0.7;
@@ -107,20 +109,20 @@ fn a_furnace_keeps_its_flux() {
             .sum();
         let expected = emitted * ALBEDO.powi(bounce as i32);
         println!("after {bounce} scatterings: {flux} W, expected {expected}");
-        // Paths may be ended at random from the scattering after the third on: a binomial number of them is
-        // left.
+        // Paths may be ended at random from the scattering after the third on: the number of the remaining
+        // ones is binomial.
         let left = ALBEDO.powi(if bounce > 3 { 4 } else { 0 }) * ALBEDO.powi((bounce as i32 - 4).max(0));
         let deviation = ((1.0 - left) / (left * f64::from(PATHS))).sqrt();
         assert!((flux / expected - 1.0).abs() < 1.0e-4 + 4.0 * deviation, "{bounce}: {flux}, not {expected}");
     }
-    // Light that was scattered 0 to 6 times.
+    // The light was scattered 0 to 6 times.
     let expected: f64 = (0..=6).map(|bounce| RADIANCE * ALBEDO.powi(bounce)).sum();
     println!("radiance {average} +- {error}, expected {expected}");
     assert!((average - expected).abs() < 4.0 * error && error < 0.01 * expected);
     assert_silent(&device);
 }
 
-/// A mirror above a lamp sends light to the floor as a lamp above the mirror would through a hole.
+/// A mirror above a lamp sends light to the floor like an image of the lamp above the mirror, through a hole.
 #[test]
 fn light_by_a_plane_mirror_is_that_of_an_image_of_the_lamp() {
     const SIDE: u32 = 32;
@@ -155,12 +157,12 @@ fn light_by_a_plane_mirror_is_that_of_an_image_of_the_lamp() {
     assert_silent(&device);
 }
 
-/// A plate of glass between a lamp and the floor: all light there was refracted twice.
+/// A plate of glass stands between a lamp and the floor: all light on the floor was refracted twice.
 #[test]
 fn light_through_a_plate_of_glass_is_that_of_the_closed_form() {
     const SIDE: u32 = 16;
     let (albedo, half, intensity) = (0.8, 0.25_f32, 2.0);
-    // Lamp at 1, plate from 0.6 to 0.4: what is in air counts 0.8 of the way.
+    // The lamp is at 1, the plate from 0.6 to 0.4, so that 0.8 of the way is in air.
     let plate = |height: f64, up: f64| square(DVec3::Y * height, DVec3::X * 3.0, -DVec3::Z * 3.0 * up, 1);
     let meshes = vec![floor(3.0, 0), plate(0.6, 1.0), plate(0.4, -1.0)];
     let scene = lit(meshes, vec![lambert(albedo, 0.0), glass()], point_light(1.0, intensity));
@@ -168,7 +170,7 @@ fn light_through_a_plate_of_glass_is_that_of_the_closed_form() {
     let stage = Setup::new(&device, &scene, from_above(0.3, half), SIDE, SIDE, 9);
     let map = photons(&stage, options(PhotonKind::Caustic, 3, 1 << 16, 0.05));
     let [found, error] = estimate(sample_means(&stage, &map, 8));
-    // By the angle in air: metres from the middle, and the flux of a ring over its area.
+    // The closed form goes by the angle in air: metres from the middle, and the flux of a ring over its area.
     let away = |angle: f64| {
         let inside = (angle.sin() / 1.5).asin();
         0.8 * angle.tan() + 0.2 * inside.tan()
@@ -189,13 +191,14 @@ fn light_through_a_plate_of_glass_is_that_of_the_closed_form() {
     let expected = f64::from(albedo) / PI * lit;
     println!("{found} +- {error}, expected {expected}");
     assert!((found - expected).abs() < 4.0 * error + 0.002 * expected && error < 0.02 * expected);
-    // As paths do not find it at all.
+    // Paths do not find this light at all.
     let paths = Path::new(&stage.desc(), 3).expect("valid");
     assert_eq!(mean(&stage.render(&paths, 1)), 0.0);
     assert_silent(&device);
 }
 
-/// Every photon within the radius, once, in f64: on a diffuse floor each counts the same share of its flux.
+/// The reference sums every photon within the radius, once, in f64: on a diffuse floor each counts the same
+/// share of its flux.
 #[test]
 fn what_is_gathered_is_the_sum_over_all_photons() {
     const SIDE: u32 = 24;
@@ -206,7 +209,7 @@ fn what_is_gathered_is_the_sum_over_all_photons() {
     let device = device();
     let eye = from_above(0.8, half);
     let stage = Setup::new(&device, &scene, eye.clone(), SIDE, SIDE, seed);
-    // The direct light is the same, number by number.
+    // The direct light has the same random numbers.
     let direct = stage.render(&Path::new(&stage.desc(), 1).expect("valid"), 1);
     for (photon_paths, radius) in [(3000, 0.2), (20_000, 0.03), (1000, 3.0)] {
         let map = photons(&stage, options(PhotonKind::All, 4, photon_paths, radius));
@@ -241,7 +244,7 @@ fn what_is_gathered_is_the_sum_over_all_photons() {
     assert_silent(&device);
 }
 
-/// W/m^2 by the kernel 2 (1 - d^2 / r^2) / (pi r^2), of photons that the floor sees.
+/// Returns W/m^2 by the kernel 2 (1 - d^2 / r^2) / (pi r^2), of photons that the floor sees.
 fn naive(photons: &[Photon], place: Vec3, radius: f64) -> f64 {
     let of_photon = |photon: &Photon| {
         let apart = (Vec3::from(photon.position) - place).as_dvec3().length() / radius;
@@ -255,9 +258,9 @@ fn naive(photons: &[Photon], place: Vec3, radius: f64) -> f64 {
     photons.iter().map(of_photon).sum()
 }
 
-/// Means of whole pictures differ by their noise, and by what photons are short of along edges: a band as
-/// wide as the radius along the four sides of a square lacks less than half of them, and the boxes have as
-/// many edges again.
+/// Means of whole pictures differ by their noise, and by the light of photons that is missing along edges: a
+/// band as wide as the radius along the four sides of a square lacks less than half of them, and the boxes
+/// have as many edges again.
 #[test]
 fn all_light_in_a_room_is_that_of_paths() {
     let (scene, eye) = cornell();
@@ -281,7 +284,7 @@ fn all_light_in_a_room_is_that_of_paths() {
     assert_silent(&device);
 }
 
-/// A ball of glass with smooth normals under a lamp that paths find as well. The picture is of the floor
+/// A ball of glass with smooth normals is under a lamp that paths find as well. The picture shows the floor
 /// around all of the light that comes through the ball, so that the kernel moves next to none out of it.
 #[test]
 fn caustics_of_a_ball_are_those_that_paths_find() {
@@ -294,7 +297,7 @@ fn caustics_of_a_ball_are_those_that_paths_find() {
             square(DVec3::Y * 2.0, DVec3::X * 0.6, DVec3::Z * 0.6, 2),
         ];
         let scene = lit(meshes, vec![lambert(0.7, 0.0), material, lamp], None);
-        // From below the ball: what the camera sees is the floor alone.
+        // The camera is below the ball and sees the floor alone.
         let eye = from_above(0.05, 1.2);
         let stage = Setup::new(&device, &scene, eye, 32, 32, 4);
         let bounces = 4;
@@ -313,8 +316,9 @@ fn caustics_of_a_ball_are_those_that_paths_find() {
     assert_silent(&device);
 }
 
-/// A floor and a wall beyond it, lit once more by what they scatter. Each kind of light emits as much as
-/// light samples find; half of the light within a radius of the edge between the two is missing, at most.
+/// A floor and a wall beyond it are lit once more by the light that they scatter. Each kind of light emits as
+/// much as light samples find; at most half of the light within a radius of the edge between the two is
+/// missing.
 #[test]
 fn photons_carry_what_each_kind_of_light_sends() {
     let device = device();
@@ -351,7 +355,7 @@ fn photons_carry_what_each_kind_of_light_sends() {
     assert_silent(&device);
 }
 
-/// Lights of all kinds, a ball of glass and a veil.
+/// Makes lights of all kinds, a ball of glass and a veil.
 fn many_lights() -> (Scene, Camera) {
     let mut veil = lambert(0.7, 0.0);
     veil.base_color[3] = 0.4;
@@ -397,7 +401,7 @@ fn photons_of_all_lights_are_those_of_the_naive_integrator() {
     for spec in [of("caustic"), of("all")] {
         let found = difference::difference(&scene, &scene, &eye, 4, &spec);
         println!("{:?}: {found:?}", spec.options());
-        // Where the ball's facets end, a photon may be refracted by one or by the next.
+        // Where the ball's facets meet, a photon may be refracted by one or by the next.
         found.assert_within(0.05, 0.005, format_args!("{:?}", spec.options()));
     }
 }
@@ -406,7 +410,7 @@ fn photons_of_all_lights_are_those_of_the_naive_integrator() {
 fn waves_and_ways_to_record_them_change_no_picture() {
     let device = device();
     let (mut scene, eye) = many_lights();
-    // More veils than rounds are recorded at first.
+    // There are more veils than rounds that are recorded at first.
     for number in 1..=20 {
         scene.meshes.push(square(DVec3::Y * (1.0 + 0.01 * f64::from(number)), DVec3::X, -DVec3::Z, 3));
         let mesh = scene.meshes.len() - 1;
@@ -422,7 +426,7 @@ fn waves_and_ways_to_record_them_change_no_picture() {
         let compared = |picture| Compared { picture, reference: &expected, width: 20 };
         compared(&by_waves).assert_bits("nine waves a sample gather one map");
 
-        // As frames record it: more rounds until no ray is left.
+        // Frames are recorded with more rounds until no ray is left.
         let whole = photons(&stage, options);
         loop {
             device.submit(|recorder| whole.record_reset(recorder)).expect("the reset runs");
@@ -443,7 +447,7 @@ fn waves_and_ways_to_record_them_change_no_picture() {
     assert_silent(&device);
 }
 
-/// The page's formula, and its value.
+/// Formula of the page, and its value.
 const FORMULA: &str = "44 N (B - 1) + 4 max(1024, 2 ceil2(N)) + 56 N + 12 bytes";
 
 fn formula_bytes(photon_paths: u64, bounces: u64) -> u64 {
@@ -453,7 +457,7 @@ fn formula_bytes(photon_paths: u64, bounces: u64) -> u64 {
         + 12
 }
 
-/// Buffers of a map and its queue, each of which the device makes a little larger for alignment.
+/// Bytes by which the device enlarges the buffers of a map and its queue for alignment.
 const ALIGNMENT: u64 = 10 * 256;
 
 #[test]
@@ -479,7 +483,7 @@ fn a_map_takes_the_bytes_that_the_page_says() {
     }
 }
 
-/// The exponent with which numbers fall by a count: the slope of a line through their logarithms.
+/// Returns the exponent with which numbers fall by a count: the slope of a line through their logarithms.
 fn exponent(points: &[(f64, f64)]) -> f64 {
     let logarithms = || points.iter().map(|(count, number)| (count.ln(), number.ln()));
     let count = points.len() as f64;
@@ -488,8 +492,8 @@ fn exponent(points: &[(f64, f64)]) -> f64 {
     along / logarithms().map(|(a, _)| (a - x).powi(2)).sum::<f64>()
 }
 
-/// The variance of a mean of samples over that of the first, where it is as one over the area that photons
-/// are gathered in.
+/// Returns the variance of a mean of samples over that of the first, if the variance of a sample is as one
+/// over the area in which photons are gathered.
 fn variance(samples: u32) -> f64 {
     let (mut of_sample, mut sum) = (1.0, 0.0);
     for sample in 1..=samples {
@@ -499,8 +503,8 @@ fn variance(samples: u32) -> f64 {
     sum / f64::from(samples).powi(2)
 }
 
-/// Squared errors of light by a plane mirror on the floor, in its middle and where it ends. In the middle
-/// they are noise.
+/// The squared errors are those of light by a plane mirror on the floor, in its middle and at its border. In
+/// the middle they are noise.
 #[test]
 fn squared_errors_fall_as_the_page_says() {
     const SIDE: u32 = 32;
@@ -511,7 +515,7 @@ fn squared_errors_fall_as_the_page_says() {
     let materials = vec![lambert(albedo, 0.0), mirror(1.0)];
     let scene = lit(vec![floor(2.0, 0), mirror_above], materials, point_light(1.0, 3.0));
     let device = device();
-    // By an image of the lamp at a height of 3, through the outline of the mirror.
+    // The closed form uses an image of the lamp at a height of 3, seen through the outline of the mirror.
     let light = |x: f64, z: f64| {
         let is_lit = x.abs() < end && z.abs() < end;
         if is_lit { f64::from(albedo) / PI * 9.0 / (9.0 + x * x + z * z).powf(1.5) } else { 0.0 }
@@ -535,7 +539,7 @@ fn squared_errors_fall_as_the_page_says() {
                 let sampling = Sampling { sampler, ..Sampling::default() };
                 stage.scene.set_sampling(sampling).expect("the frame can be written");
                 let map = photons(&stage, options(PhotonKind::Caustic, 2, 1 << 13, 0.15));
-                // Direct light is the same, number by number.
+                // Direct light has the same random numbers.
                 let direct = Path::new(&stage.desc(), 1).expect("valid");
                 let found = pictures_after(&stage, &map, COUNTS);
                 let direct = pictures_after(&stage, &direct, COUNTS);
@@ -559,7 +563,7 @@ fn squared_errors_fall_as_the_page_says() {
     assert_silent(&device);
 }
 
-/// Pictures after each of several numbers of samples, in ascending order.
+/// Returns the pictures after each of several numbers of samples, in ascending order.
 fn pictures_after<const N: usize>(
     stage: &Setup,
     integrator: &dyn Integrator,
@@ -577,7 +581,7 @@ fn pictures_after<const N: usize>(
     })
 }
 
-/// More photons around a surface than one invocation looks at are an error, and not a darker picture.
+/// More photons around a surface than one invocation processes are an error, and not a darker picture.
 #[test]
 fn crowds_and_options_out_of_their_ranges_are_refused() {
     let device = device();
@@ -596,7 +600,7 @@ fn crowds_and_options_out_of_their_ranges_are_refused() {
     ] {
         assert!(error(options).contains(named), "{named}: {}", error(options));
     }
-    // Light that nothing is there for.
+    // The scene has light but no surfaces.
     let mut empty = Scene { environment: Environment::Constant([0.5; 3]), ..Scene::default() };
     empty.lights.extend(point_light(1.0, 1.0));
     let sky = Setup::new(&device, &empty, forward_camera(DVec3::ZERO), 2, 2, 0);

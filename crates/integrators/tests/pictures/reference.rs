@@ -1,8 +1,8 @@
-//! Device images against the naive ones of the CPU, sample by sample with the same random numbers.
+//! Device images against the naive images of the CPU, sample by sample with the same random numbers.
 //!
-//! The two read the scene independently, so packing, textures, lights and scattering are all held
-//! against each other. What remains is rounding: a few paths take another turn where a random number
-//! falls next to a threshold, so most pixels must agree closely and the means very closely.
+//! Both sides read the scene independently, so packing, textures, lights and scattering are all compared.
+//! Rounding remains: a few paths take another turn where a random number falls next to a threshold, so most
+//! pixels must agree closely and the means very closely.
 
 use crate::pictures::common::{difference::*, scenes::*, *};
 use glam::DVec3;
@@ -13,7 +13,7 @@ use rasray_scene::{
     BackFaces, Camera, Environment, Instance, Light, Mesh, Projection, Sampler, Scene, ShadowTerminator,
 };
 
-/// At most `deviating` of the pixels may differ.
+/// Compares the images; at most a share of `deviating` of the pixels may differ.
 fn compare(scene: &Scene, camera: &Camera, samples: u32, integrator: &IntegratorSpec, deviating: f64) {
     let found = difference(scene, scene, camera, samples, integrator);
     eprintln!("{}: {found:?}", scene.name);
@@ -71,7 +71,7 @@ fn light_through_veils_and_panes() {
     compare(&veiled_room(), &eye, 4, &opaque_panes(3), 0.01);
 }
 
-/// Rooms that are looked into from outside, through walls without an outside and behind blended surfaces.
+/// Rooms are looked into from outside, through walls without an outside and behind blended surfaces.
 #[test]
 fn backs_are_passed_by_the_rays_that_are_asked_to() {
     let eye = forward_camera(DVec3::new(0.1, 0.05, 2.6));
@@ -86,7 +86,7 @@ fn backs_are_passed_by_the_rays_that_are_asked_to() {
             material.culls_back = number != 1;
         }
         let mirror = glam::DAffine3::from_scale(DVec3::new(1.0, -1.0, 1.0));
-        // Not the walls.
+        // The walls stay.
         for instance in scene.instances.iter_mut().skip(6).step_by(2) {
             instance.world_from_mesh = mirror * instance.world_from_mesh;
         }
@@ -110,7 +110,7 @@ fn backs_are_passed_by_the_rays_that_are_asked_to() {
     }
 }
 
-/// A coarse smooth ball under a sun from the side: the border of its shadow is that of a ball, not of its
+/// A coarse smooth ball is under a sun from the side: the border of its shadow is that of a ball, not of its
 /// triangles.
 #[test]
 fn a_coarse_ball_is_lit_as_a_ball() {
@@ -164,7 +164,7 @@ fn a_coarse_ball_is_lit_as_a_ball() {
         let differ = |(a, b): (&[f32; 3], &[f32; 3])| (a[0] - b[0]).abs() > 1.0e-3 * (b[0] + 1.0e-2);
         let differing = image.iter().zip(&reference.pixels).filter(|&pair| differ(pair)).count();
         assert!(differing * 100 <= image.len(), "{shadow_terminator:?}: {differing} pixels differ");
-        // Where light grazes, away from the silhouette.
+        // The pixels are those where light grazes, away from the silhouette.
         let brightest = f64::from(albedo * irradiance) / std::f64::consts::PI;
         let band = (0..side * side).filter_map(|pixel| {
             let place =

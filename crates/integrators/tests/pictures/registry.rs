@@ -1,4 +1,4 @@
-//! The registry of integrators against that of the naive ones.
+//! Registry of integrators against the registry of the naive ones.
 
 use std::collections::BTreeSet;
 
@@ -8,7 +8,7 @@ use rasray_integrators::{INTEGRATORS, IntegratorSpec};
 use rasray_reference::integrators as reference;
 use rasray_scene::Environment;
 
-/// Every integrator by itself and with each value that tests try, each once.
+/// Returns every integrator by itself and with each value that tests try, each once.
 fn specs() -> Vec<IntegratorSpec> {
     let mut specs: Vec<IntegratorSpec> = Vec::new();
     for row in INTEGRATORS {
@@ -36,8 +36,8 @@ fn every_integrator_has_a_naive_one_of_its_name() {
 #[test]
 fn every_option_does_on_the_device_what_it_does_in_the_naive_integrator() {
     let eye = forward_camera(DVec3::new(0.0, 0.0, 0.9));
-    // Open to one side, so that not everything is occluded; walls shine, so that something is seen without
-    // bounces.
+    // The room is open to one side, so that not everything is occluded; walls emit, so that there is light
+    // without bounces.
     let mut scene = veiled_room();
     scene.instances.remove(0);
     scene.environment = Environment::Constant([0.3, 0.4, 0.5]);

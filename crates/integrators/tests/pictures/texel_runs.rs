@@ -1,4 +1,4 @@
-//! Textures whose texels lie in several buffers: the same pictures.
+//! Textures whose texels lie in several buffers give the same pictures.
 
 use crate::pictures::common::scenes::textured_room;
 use crate::pictures::common::{Setup, are_same, assert_same, assert_silent, device, forward_camera, mean};
@@ -8,7 +8,7 @@ use rasray_gpu::Device;
 use rasray_gpu_scene::{GpuScene, Parts, SceneTables, ShadingFeatures, TexelRuns, View};
 use rasray_integrators::{AmbientOcclusion, Film, Integrator, Path, Raycast};
 
-/// Every kind of texture and a mask, with texels in runs.
+/// Makes every kind of texture and a mask, with texels in runs.
 fn stage(device: &Device, tables: &SceneTables, runs: TexelRuns) -> Setup {
     let view = View { camera: forward_camera(DVec3::new(0.0, 0.0, 0.5)), width: 24, height: 16, seed: 5 };
     let scene = GpuScene::upload_in_runs(device, tables, &view, runs).expect("the scene fits");
@@ -18,7 +18,7 @@ fn stage(device: &Device, tables: &SceneTables, runs: TexelRuns) -> Setup {
     Setup { device: device.clone(), scene, structure, film }
 }
 
-/// Path tracing with bounces, ray casting, and what rays alone see of the mask.
+/// Renders path tracing with bounces, ray casting, and the mask as visibility rays observe it.
 fn pictures(stage: &Setup, features: ShadingFeatures) -> [Vec<[f32; 3]>; 3] {
     let desc = || stage.desc_with(200, features);
     let path = Path::new(&desc(), 3).expect("valid");
@@ -37,7 +37,7 @@ fn pictures_do_not_depend_on_the_runs_that_texels_lie_in() {
     assert!(!whole.scene.features().texel_runs);
     let expected = pictures(&whole, whole.scene.features());
     assert!(expected.iter().all(|picture| mean(picture) > 0.05));
-    // The code for several runs reads one as well.
+    // The code for several runs also reads a single one.
     let [width, _] = whole.scene.image_size();
     let assert_expected = |pictures: &[Vec<[f32; 3]>; 3], why: &str| {
         for (picture, expected) in pictures.iter().zip(&expected) {
@@ -57,7 +57,7 @@ fn pictures_do_not_depend_on_the_runs_that_texels_lie_in() {
         seen.push(count.div_ceil(runs.length()));
     }
     assert_eq!(seen, [4, 2], "buffers that were in use");
-    // Other texels are noticed: every run is read.
+    // Changed texels change the picture: every run is read.
     for run in 0..4 {
         let mut damaged = tables.clone();
         let texels = damaged.texels.chunks_mut(512).nth(run).expect("four runs");

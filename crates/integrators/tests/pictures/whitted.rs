@@ -18,7 +18,8 @@ pub(super) fn mirror(tint: f32) -> Material {
     Material { metallic: 1.0, roughness: 0.0, specular: 1.0, ..lambert(tint, 0.0) }
 }
 
-/// Clear and thick, with an index of 1.5: perpendicular light is reflected with a share of 0.04.
+/// Makes glass that is clear and thick, with an index of 1.5: perpendicular light is reflected with a share
+/// of 0.04.
 pub(super) fn glass() -> Material {
     Material {
         transmission: 1.0,
@@ -30,7 +31,7 @@ pub(super) fn glass() -> Material {
     }
 }
 
-/// A plate between two planes across z, its front towards +z.
+/// Makes a plate between two planes across z, its front towards +z.
 fn plate(front: f64, back: f64, half: f64, material: usize) -> [Mesh; 2] {
     [
         square(DVec3::Z * front, DVec3::X * half, DVec3::Y * half, material),
@@ -38,8 +39,8 @@ fn plate(front: f64, back: f64, half: f64, material: usize) -> [Mesh; 2] {
     ]
 }
 
-/// Shares of light by Schlick's curve, the device's: at the boundary of an index of 1.5, by the cosine in
-/// air.
+/// Returns the share of light that is reflected by Schlick's curve, which the device uses: at the boundary of
+/// an index of 1.5, by the cosine in air.
 pub(super) fn reflected(cosine: f64) -> f64 {
     0.04 + 0.96 * (1.0 - cosine).powi(5)
 }
@@ -63,7 +64,7 @@ fn all() -> WhittedOptions {
 fn a_plane_mirror_shows_the_mirror_image() {
     let device = device();
     let (tint, glow, sky) = (0.75_f32, 3.0_f32, [0.25_f32, 0.5, 1.0]);
-    // The lamp is behind the eye: its image is as far behind the mirror as it is in front.
+    // The lamp is behind the eye: its image is as far behind the mirror as the lamp is in front.
     let (mirror_z, lamp) = (-2.0, square(DVec3::new(0.3, -0.2, 1.0), DVec3::X * 0.9, DVec3::Y * 0.6, 1));
     let image_of_lamp = DVec3::new(0.3, -0.2, 2.0 * mirror_z - 1.0);
     let wall = square(DVec3::Z * mirror_z, DVec3::X * 4.0, DVec3::Y * 4.0, 0);
@@ -109,7 +110,7 @@ fn a_plate_of_glass_moves_what_is_behind_it_and_reflects_at_both_faces() {
     let device = device();
     let (thickness, glow, size) = (0.8, 2.0_f32, 64);
     let mut meshes = Vec::from(plate(0.0, -thickness, 20.0, 0));
-    // A glowing wall behind the plate, to the right of x = 0.
+    // A glowing wall stands behind the plate, to the right of x = 0.
     meshes.push(square(DVec3::new(30.0, 0.0, -3.0), DVec3::X * 30.0, DVec3::Y * 30.0, 1));
     let scene = scene(meshes, vec![glass(), lambert(0.0, glow)], [0.0; 3]);
     for angle in [0.0_f64, 0.5, 0.9] {
@@ -121,7 +122,7 @@ fn a_plate_of_glass_moves_what_is_behind_it_and_reflects_at_both_faces() {
         let stage = Setup::new(&device, &scene, camera(eye, right, DVec3::Y, projection), size, size, 1);
         let image = render(&stage, depth(2));
         let inside = (angle.sin() / 1.5).asin();
-        // A ray comes out of the plate shifted across itself, to the left of where it would be without.
+        // A ray leaves the plate shifted across itself, to the left of its place without the plate.
         let shift = thickness * (angle - inside).sin() / inside.cos();
         let passed = (1.0 - reflected(angle.cos())).powi(2) * f64::from(glow);
         for (index, pixel) in image.iter().enumerate() {
@@ -138,7 +139,7 @@ fn a_plate_of_glass_moves_what_is_behind_it_and_reflects_at_both_faces() {
     assert_silent(&device);
 }
 
-/// Under an even sky a plate shows its reflection, and what comes through after none, two, four...
+/// Under an even sky a plate shows its reflection, and the light that comes through after none, two, four...
 /// reflections inside.
 #[test]
 fn a_plate_of_glass_in_a_white_furnace_gives_the_geometric_series() {
@@ -183,7 +184,7 @@ pub(super) fn ball(centre: DVec3, radius: f64, material: usize) -> Mesh {
     mesh
 }
 
-/// A ball of tinted glass before a wall, a mirror at the side, a lamp, and an even sky.
+/// Makes a ball of tinted glass before a wall, a mirror at the side, a lamp, and an even sky.
 fn glass_ball() -> (Scene, Camera) {
     let tinted = Material { attenuation_color: [0.6, 0.9, 0.7], attenuation_distance: 0.5, ..glass() };
     let mut meshes = vec![
@@ -211,13 +212,13 @@ fn a_ball_of_glass_is_that_of_the_naive_integrator() {
         let spec = whitted().with("ray-depth", ray_depth).expect("valid");
         let found = difference(&scene, &scene, &camera, 4, &spec);
         eprintln!("{ray_depth}: {found:?}");
-        // Where the ball's facets end, a ray may be refracted by one or by the next.
+        // Where the ball's facets meet, a ray may be refracted by one or by the next.
         found.assert_within(0.02, 0.01, ray_depth);
     }
 }
 
-/// From the left: a mirror, a wall, glass that reflects nothing. All before a wall in the light of a lamp, in
-/// a room.
+/// Makes, from the left, a mirror, a wall and glass that reflects nothing, all before a wall in the light of
+/// a lamp, in a room.
 fn three_parts() -> (Scene, Camera) {
     let dull_glass = Material { specular: 0.0, ..glass() };
     let third =
@@ -252,14 +253,14 @@ fn selections_give_the_picture_of_all_rays_where_they_say_so() {
     let direct = render(&stage, depth(0));
     let mut left_out = 0;
     for (index, pixel) in reflective.iter().enumerate() {
-        // The wall has no rays to lose; what the glass lets through is left out.
+        // The wall has no rays to lose; the light through the glass is left out.
         let is_glass = index as u32 % width >= 2 * width / 3;
         let expected = if is_glass { &direct } else { &image };
         assert_eq!(pixel.map(f32::to_bits), expected[index].map(f32::to_bits), "{index}");
         left_out += u32::from(image[index] != *pixel);
     }
     assert!(left_out > width, "all rays show what is behind the glass: {left_out}");
-    // Specular: every ray that carries something, and no shadow on the walls.
+    // Specular selects every ray that carries light, and leaves the walls without shadows.
     let specular = select(Select::Specular);
     let unshadowed = WhittedOptions { shadows: rasray_integrators::Shadows::None, ..all() };
     assert!(bits(&specular) == bits(&render(&stage, unshadowed)), "perfect surfaces have no other light");
@@ -274,7 +275,8 @@ fn counting(stage: Setup) -> Setup {
     Setup { structure, ..stage }
 }
 
-/// Nearest-hit rays of one sample of a picture, and the picture. Brute force tests every triangle for each.
+/// Returns the nearest-hit rays of one sample of a picture, and the picture. Brute force tests every triangle
+/// for each ray.
 fn rays(stage: &Setup, triangles: u64, options: WhittedOptions) -> (u64, Vec<[f32; 3]>) {
     let integrator = Whitted::new(&stage.desc(), options).expect("valid");
     let image = stage.render(&integrator, 1);
@@ -285,7 +287,7 @@ fn rays(stage: &Setup, triangles: u64, options: WhittedOptions) -> (u64, Vec<[f3
 }
 
 /// A mirror covers some of eight columns of the view, a wall the others. Full tracing sends a ray on from
-/// every pixel; a selection from those of the mirror.
+/// every pixel; a selection only from those of the mirror.
 #[test]
 fn rays_are_as_many_as_pixels_and_pixels_of_mirrors() {
     let device = device();
@@ -314,7 +316,8 @@ fn rays_are_as_many_as_pixels_and_pixels_of_mirrors() {
     assert_silent(&device);
 }
 
-/// A room of dull mirrors with a lamp and a post: what is seen is seen again and again, ever darker.
+/// Makes a room of dull mirrors with a lamp and a post: every object is reflected again and again, ever
+/// darker.
 fn hall_of_mirrors() -> (Scene, Camera) {
     let mut meshes = box_inside(1.0, 0);
     meshes.push(square(DVec3::new(0.0, 0.95, 0.0), DVec3::X * 0.4, DVec3::Z * 0.4, 1));
@@ -324,7 +327,7 @@ fn hall_of_mirrors() -> (Scene, Camera) {
     (scene, forward_camera(DVec3::new(-0.1, 0.1, 0.9)))
 }
 
-/// The tables of `docs/whitted.md`.
+/// The test prints the tables of `docs/whitted.md`.
 #[test]
 fn a_threshold_trades_rays_for_error() {
     let device = device();
@@ -390,7 +393,7 @@ fn the_rest_of_a_tree_is_counted_until_it_is_rendered() {
     assert_silent(&device);
 }
 
-/// Turned scenes, a sky with texels and more mirrors, against the naive integrator.
+/// The scenes are turned and have a sky with texels and more mirrors; the naive integrator is the reference.
 #[test]
 fn mirrors_of_any_direction_under_a_sky_of_texels() {
     let (mut scene, camera) = glass_ball();

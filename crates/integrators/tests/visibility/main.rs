@@ -1,4 +1,4 @@
-//! First hits of camera rays found by drawing, against brute force: they must be the same in every bit.
+//! First hits of camera rays found by drawing, against brute force: they must be equal in every bit.
 
 use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
 
@@ -16,7 +16,8 @@ use rasray_integrators::{
 };
 use rasray_scene::{AlphaMode, Camera, Mesh, Projection, Scene, builtin};
 
-/// A device with validation on that can draw. Tests take turns, so that a message belongs to one of them.
+/// Makes a device with validation on that can draw. Tests take turns, so that a message belongs to one of
+/// them.
 pub(crate) fn drawing_device() -> (Device, MutexGuard<'static, ()>) {
     static TURN: Mutex<()> = Mutex::new(());
     static DEVICE: OnceLock<Device> = OnceLock::new();
@@ -32,7 +33,7 @@ pub(crate) fn drawing_device() -> (Device, MutexGuard<'static, ()>) {
     (device.clone(), turn)
 }
 
-/// A scene as one camera sees it, with both ways to find what it sees.
+/// Scene as one camera sees it, with both methods to find its first hits.
 struct Both {
     device: Device,
     scene: GpuScene,
@@ -40,14 +41,14 @@ struct Both {
     visibility: Visibility,
 }
 
-/// Results that both ways agreed on.
+/// Results on which both methods agreed.
 #[derive(Default)]
 struct Agreed {
     rays: usize,
     hits: usize,
-    /// Triangles drawn over all pixels of a wave.
+    /// Number of triangles drawn over all pixels of a wave.
     covering: u32,
-    /// Triangles tested at pixels.
+    /// Number of triangles tested at pixels.
     tests: u64,
 }
 
@@ -67,7 +68,7 @@ impl Both {
         Traced::from(&self.structure).with_primary(draws.then_some(&self.visibility))
     }
 
-    /// Hits and surfaces of the camera rays of a wave.
+    /// Returns the hits and surfaces of the camera rays of a wave.
     fn seen(&self, raycast: &Raycast, wave: Wave, draws: bool) -> (Vec<Hit>, Vec<Surface>) {
         let traced = self.traced(draws);
         let submitted = self.device.submit(|recorder| raycast.record_wave(recorder, traced, wave));
@@ -126,16 +127,16 @@ impl Both {
     }
 }
 
-/// All bits of a hit.
+/// Returns all bits of a hit.
 pub(crate) fn bits(hit: &Hit) -> [u32; 4] {
     [hit.t.to_bits(), hit.primitive, hit.a.to_bits(), hit.b.to_bits()]
 }
 
-/// Numbers that are the same on every machine.
+/// Generator of random numbers that are the same on every machine.
 pub(crate) struct Random(pub u64);
 
 impl Random {
-    /// In [-1, 1).
+    /// Returns the next number in [-1, 1).
     pub fn next(&mut self) -> f64 {
         self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (self.0 >> 11) as f64 / f64::from(1 << 26) / f64::from(1 << 26) - 1.0
@@ -146,7 +147,7 @@ impl Random {
     }
 }
 
-/// Triangles of one mesh.
+/// Makes triangles of one mesh.
 pub(crate) fn soup(triangles: &[[DVec3; 3]]) -> Scene {
     let positions: Vec<[f32; 3]> = triangles.iter().flatten().map(|p| p.as_vec3().to_array()).collect();
     let indices = (0..positions.len() as u32).collect();
@@ -158,7 +159,7 @@ pub(crate) fn perspective(eye: DVec3, fov_y: f32) -> Camera {
     camera(eye, DVec3::X, DVec3::Y, Projection::Perspective { fov_y })
 }
 
-/// A camera at the origin that is turned in no simple way.
+/// Makes a camera at the origin with a general rotation.
 pub(crate) fn turned(projection: Projection) -> Camera {
     let forward = DVec3::new(0.3, -0.2, -0.9).normalize();
     let right = forward.cross(DVec3::new(0.1, 1.0, 0.05)).normalize();
@@ -217,7 +218,7 @@ fn triangles_that_cross_the_plane_of_the_eye_are_seen() {
     let mut triangles: Vec<[DVec3; 3]> = [floor(-0.5, 3.0), floor(0.7, 100.0)].concat();
     triangles.push([DVec3::new(-0.2, -0.1, 0.5), DVec3::new(-0.3, 0.2, -2.0), DVec3::new(-0.1, -0.4, -2.0)]);
     triangles.push([DVec3::new(0.2, -0.1, -1.5), DVec3::new(0.1, 0.2, 2.0), DVec3::new(0.6, -0.4, 1.0)]);
-    // Edges that pass the eye closely, between corners far away.
+    // Edges pass the eye closely, between corners far away.
     triangles.push([
         DVec3::new(-9e3, 1e-3, -8e3),
         DVec3::new(9e3, -1e-3, 7.9e3),
@@ -240,8 +241,8 @@ fn triangles_that_cross_the_plane_of_the_eye_are_seen() {
 fn triangles_of_every_size_around_the_camera_are_seen() {
     let (device, _turn) = drawing_device();
     let mut random = Random(11);
-    // A closed sphere around the camera, and triangles from far larger than the view to far smaller than a
-    // pixel.
+    // A closed sphere is around the camera, with triangles from far larger than the view to far smaller than
+    // a pixel.
     let mut triangles: Vec<[DVec3; 3]> = Vec::new();
     for _ in 0..250 {
         let middle = random.point().normalize() * 10.0_f64.powf(1.5 * random.next());
@@ -315,7 +316,8 @@ fn holes_of_masks_are_seen_through() {
     assert!(through > 40, "{through} pixels show what is behind a hole");
 }
 
-/// Walls without an outside, slivers, and every other triangle of an instance that mirrors its mesh.
+/// The scene has walls without an outside, slivers, and every other triangle of an instance that mirrors its
+/// mesh.
 #[test]
 fn backs_are_passed_alike() {
     let (device, _turn) = drawing_device();
@@ -342,7 +344,7 @@ fn backs_are_passed_alike() {
     };
     let (fewer, all) = (seen(&culling, "single-sided"), seen(&two_sided, "two-sided"));
     assert!(fewer > 200 && fewer < all, "{fewer} of {all} hits are left");
-    // A floor of which the eye is below: it reaches behind the eye, and nothing of it is seen.
+    // The eye is below a floor that reaches behind it, and sees no part of it.
     two_sided.materials[0].culls_back = true;
     two_sided.meshes.truncate(1);
     two_sided.instances.truncate(1);
@@ -368,7 +370,7 @@ fn pictures_are_the_same_as_with_traced_camera_rays() {
     meshes.push(square(DVec3::new(-0.4, 0.0, -0.3), DVec3::X * 0.3, DVec3::Y * 0.3, 2));
     meshes.push(square(DVec3::new(0.4, 0.0, -0.3), DVec3::X * 0.3, DVec3::Y * 0.3, 3));
     let mut scene = scene(meshes, vec![lambert(0.6, 0.0), lambert(0.0, 4.0), glass, veil], [0.0; 3]);
-    // Far from the world's origin.
+    // The place is far from the world's origin.
     let place = DVec3::new(1e6, -2e6, 3e6);
     for instance in &mut scene.instances {
         instance.world_from_mesh = DAffine3::from_translation(place);
@@ -411,7 +413,7 @@ fn devices_that_cannot_draw_are_refused() {
     let view = View { camera: forward_camera(DVec3::ZERO), width: 4, height: 4, seed: 1 };
     let tables = SceneTables::new(&Scene::default(), DVec3::ZERO, &Parts::ALL).expect("well formed");
     let scene = GpuScene::upload(&device, &tables, &view).expect("it fits");
-    // The feature was not asked for.
+    // The device was made without the feature.
     let refused = Visibility::new(&device, &scene, false).expect_err("stores of fragments are missing");
     assert!(matches!(refused, IntegratorError::CannotDraw { .. }), "{refused:?}");
     assert!(refused.to_string().contains("fragmentStoresAndAtomics"), "{refused}");

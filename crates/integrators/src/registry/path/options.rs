@@ -8,8 +8,8 @@ use crate::IntegratorSpec;
 /// Maximum number of scatterings of a path. A wave records up to this number of rounds.
 pub const BOUNCE_LIMIT: u32 = 1024;
 
-/// By default so many that light, which enters and leaves a glass with two walls and so has scattered four
-/// times before it is seen on what stands behind, can go through two such glasses in a row.
+/// Option of bounces. The default lets light go through two glasses with two walls in a row: light that
+/// enters and leaves one such glass has scattered four times before it is seen on the surface behind.
 pub(in crate::registry) const BOUNCES: OptionRow = OptionRow::new(
     "bounces",
     Values::Whole(0, BOUNCE_LIMIT),
@@ -54,20 +54,20 @@ const fn terminator_word(terminator: ShadowTerminator) -> Word {
 /// transmission is rough, and glass with a thickness, scatter light either way, and stop shadow rays.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum GlassShadows {
-    /// Light goes straight through them and takes their tint. Going through is no scattering, and so no
+    /// Light goes straight through the panes and takes their tint. The passage is no scattering, and so no
     /// bounce.
     #[default]
     Tint,
-    /// They stop shadow rays, and going through is a scattering: what is behind them is lit by what scattered
-    /// rays find, which are never lights without extent.
+    /// The panes stop shadow rays, and the passage is a scattering: surfaces behind them are lit by the light
+    /// that scattered rays find, which is never that of lights without extent.
     Opaque,
 }
 
 impl GlassShadows {
-    /// All of them.
+    /// All choices.
     pub const ALL: [Self; 2] = [Self::Tint, Self::Opaque];
 
-    /// Its name on the command line.
+    /// Name on the command line.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Tint => "tint",
@@ -91,18 +91,18 @@ impl GlassShadows {
 /// Reflection of rough surfaces that let no light through.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum SpecularLobe {
-    /// Facets with the distribution GGX, which mask each other; what they lose is made up for.
+    /// Facets with the distribution GGX, which mask each other, with compensation of the lost energy.
     #[default]
     Ggx,
-    /// A Gaussian of slopes, as of the teapot of Hu et al.
+    /// Gaussian of slopes, as on the teapot of Hu et al.
     Ward,
 }
 
 impl SpecularLobe {
-    /// All of them.
+    /// All choices.
     pub const ALL: [Self; 2] = [Self::Ggx, Self::Ward];
 
-    /// Its name on the command line.
+    /// Name on the command line.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Ggx => "ggx",
@@ -125,21 +125,21 @@ impl SpecularLobe {
     }
 }
 
-/// Way in which surfaces of hits are found. Changes no picture.
+/// Method that finds the surfaces of hits. Pictures do not depend on it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Fetching {
-    /// By the structure: of triangles, by the id of the triangle.
+    /// Look-up by the structure: for triangles, by the id of the triangle.
     #[default]
     Direct,
-    /// By drawing the triangles that were hit against lists of hits, as DIRT does ([`crate::Fetch`]).
+    /// Drawing of the triangles that were hit against lists of hits, as DIRT does ([`crate::Fetch`]).
     Raster,
 }
 
 impl Fetching {
-    /// All of them.
+    /// All choices.
     pub const ALL: [Self; 2] = [Self::Direct, Self::Raster];
 
-    /// Its name on the command line.
+    /// Name on the command line.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Direct => "direct",
@@ -165,20 +165,20 @@ impl Fetching {
 /// Options of paths.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct PathOptions {
-    /// At most this many scatterings, up to [`BOUNCE_LIMIT`]: 1 is direct light only, 0 emission only.
+    /// Largest number of scatterings, up to [`BOUNCE_LIMIT`]: 1 is direct light only, 0 emission only.
     pub bounces: u32,
-    /// Effect of smooth thin panes on light; without bounces they are opaque.
+    /// Effect of smooth thin panes on light; with 0 bounces they are opaque.
     pub glass_shadows: GlassShadows,
-    /// Origin of shadow rays of smooth surfaces.
+    /// Origin of shadow rays on smooth surfaces.
     pub shadow_terminator: ShadowTerminator,
     /// Reflection of rough surfaces.
     pub specular: SpecularLobe,
-    /// Way in which surfaces of hits are found; drawing needs a structure of triangles.
+    /// Method that finds the surfaces of hits; drawing needs a structure of triangles.
     pub fetch: Fetching,
 }
 
 impl PathOptions {
-    /// As a spec has them.
+    /// Reads the options from a spec.
     pub(in crate::registry) fn of(spec: &IntegratorSpec) -> Self {
         Self {
             bounces: spec.get(BOUNCES.name).and_then(Value::whole).unwrap_or_default(),
@@ -195,7 +195,7 @@ impl PathOptions {
 }
 
 impl From<u32> for PathOptions {
-    /// This many bounces, and the default of everything else.
+    /// Makes options with this many bounces, and all other defaults.
     fn from(bounces: u32) -> Self {
         Self { bounces, ..Self::default() }
     }

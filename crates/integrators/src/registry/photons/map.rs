@@ -1,4 +1,4 @@
-//! The photon map of a sample.
+//! Photon map of a sample.
 
 use std::mem::offset_of;
 
@@ -20,27 +20,27 @@ use crate::{
     rounds::Rounds,
 };
 
-/// The binding of the map, as `integrators/photons.glsl` declares it.
+/// Binding of the map, as `integrators/photons.glsl` declares it.
 const MAP: u32 = 9;
-/// Place of its number of lists, and start of the lists.
+/// Offset of the number of lists, and start of the lists.
 const COUNT_AT: u64 = offset_of!(PhotonHeader, lists) as u64;
 const LISTS_AT: u64 = size_of::<PhotonHeader>() as u64;
 
-/// The radius of the first sample over the diagonal of the bounds of all triangles, where none is given.
+/// Default radius of the first sample, as a share of the diagonal of the bounds of all triangles.
 const RADIUS_SHARE: f64 = 0.01;
 /// Share of the photons of a sample that the radius of the next one keeps: alpha of Knaus and Zwicker.
 const KEPT_SHARE: f64 = 2.0 / 3.0;
 /// 1 / gamma(1 + `KEPT_SHARE`).
 const KEPT_SHARE_GAMMA: f64 = 1.107_732_167_432_472_5;
-/// Lists at least.
+/// Least number of lists.
 const LEAST_LISTS: u32 = 1024;
 
-/// A photon map as it is on the device, for those who look at it.
+/// Photon map as it is on the device, for inspection.
 #[derive(Clone, Debug, Default)]
 pub struct PhotonMap {
-    /// Metres within which a photon counts.
+    /// Distance within which a photon counts, metres.
     pub radius: f32,
-    /// Photons that are stored, in no particular order.
+    /// Stored photons, in no particular order.
     pub photons: Vec<Photon>,
 }
 
@@ -52,7 +52,7 @@ pub(super) struct MapPasses {
     rounds: Rounds,
     queue: RayQueue,
     states: Buffer,
-    /// Header, lists and photons.
+    /// Buffer of header, lists and photons.
     map: Buffer,
     bindings: Bindings,
     emit: Kernel,
@@ -63,7 +63,7 @@ impl MapPasses {
     pub fn new(desc: &IntegratorDesc<'_>, options: PhotonOptions) -> Result<Self, IntegratorError> {
         let PhotonOptions { paths, kind, photon_paths, .. } = options;
         let device = desc.device;
-        // Each photon of a path has a place of its own: none is ever left out.
+        // Each photon of a path has a place of its own, so none is ever left out.
         let photons = u64::from(photon_paths) * u64::from(stored(paths.bounces)) * size_of::<Photon>() as u64;
         let bytes = photons_at(photon_paths) + photons;
         let limit = device.limits().max_storage_buffer_range;
@@ -92,7 +92,7 @@ impl MapPasses {
         })
     }
 
-    /// Bindings of kernels that gather.
+    /// Returns the bindings of kernels that gather.
     pub fn bound(&self) -> [Bound<'_>; 1] {
         [(MAP, &self.map)]
     }
@@ -113,7 +113,7 @@ impl MapPasses {
         self.bindings.set_scene(scene);
     }
 
-    /// True if photons that are emitted could ever be stored.
+    /// True if emitted photons can ever be stored.
     fn stores_any(&self) -> bool {
         stored(self.options.paths.bounces) > 0
     }
@@ -122,10 +122,10 @@ impl MapPasses {
         Wave { first_pixel: 0, pixel_count: self.options.photon_paths, sample }
     }
 
-    /// Records the map of a sample, or the rounds that photons of the one recorded last still need.
+    /// Records the map of a sample, or the remaining rounds of the photons recorded last.
     ///
     /// # Errors
-    /// The structure was made without a scene.
+    /// An error if the structure was made without a scene.
     pub fn record(
         &self,
         recorder: &mut Recorder<'_>,
@@ -149,7 +149,7 @@ impl MapPasses {
     }
 
     fn record_emission(&self, recorder: &mut Recorder<'_>, wave: Wave) {
-        // Kernels of the sample before read the lists.
+        // Kernels of the previous sample read the lists.
         recorder.barrier(Access::COMPUTE, Access::TRANSFER_WRITE);
         let count = lists(self.options.photon_paths);
         recorder.fill(&self.map, COUNT_AT, 4, count);
@@ -187,31 +187,33 @@ impl MapPasses {
     }
 }
 
-/// Photons that are stored of a path, at most: one after each scattering but the last, which is where it is
-/// gathered.
+/// Returns the largest number of stored photons of a path: one after each scattering but the last, at which
+/// they are gathered.
 fn stored(bounces: u32) -> u32 {
     bounces.saturating_sub(1)
 }
 
-/// Lists that cells are hashed to: a power of two, two to four per path.
+/// Returns the number of lists that cells are hashed to: a power of two, two to four per path.
 fn lists(photon_paths: u32) -> u32 {
     (2 * photon_paths.next_power_of_two()).max(LEAST_LISTS)
 }
 
-/// Start of the photons in the map, bytes.
+/// Returns the start of the photons in the map, bytes.
 fn photons_at(photon_paths: u32) -> u64 {
     LISTS_AT + 4 * u64::from(lists(photon_paths))
 }
 
-/// Rounds of a map at first, and at most: a photon may pass any number of blended surfaces.
+/// Returns the number of rounds of a map at first, and the largest: a photon may pass any number of blended
+/// surfaces.
 fn rounds(bounces: u32, blend: bool) -> [u32; 2] {
     if blend { [bounces + USUAL_LAYERS, ROUND_LIMIT] } else { [bounces; 2] }
 }
 
-/// The radius of a sample, numbered from 0, over that of the first: the root of the product of (k + alpha) /
-/// (k + 1) over all k from 1 to its number.
+/// Returns the ratio of the radius of a sample, numbered from 0, to that of the first: the root of the
+/// product of (k + alpha) / (k + 1) over all k from 1 to the sample's number.
 fn shrunk(sample: u32) -> f64 {
-    // From there on the quotient of gamma functions that it is, which Stirling's series gives to 10 digits.
+    // From here on the product is computed as a quotient of gamma functions, to 10 digits by Stirling's
+    // series.
     const EXACT: u32 = 4096;
     if sample <= EXACT {
         let factors = (1..=sample).map(|k| (f64::from(k) + KEPT_SHARE) / (f64::from(k) + 1.0));
@@ -230,7 +232,7 @@ mod tests {
         assert_eq!(shrunk(0), 1.0);
         let first = ((1.0 + KEPT_SHARE) / 2.0).sqrt();
         assert!((shrunk(1) - first).abs() < 1.0e-15);
-        // Where one way to compute them ends and the other begins.
+        // The samples are around the border of the two methods.
         for sample in [4096, 4097, 4098] {
             let k = f64::from(sample) + 1.0;
             let next = shrunk(sample) * ((k + KEPT_SHARE) / (k + 1.0)).sqrt();

@@ -26,21 +26,21 @@ pub(super) const RADIUS: OptionRow = OptionRow::new(
 )
 .trying(&["0.2"]);
 
-/// Light that photons bring.
+/// Light that photons carry.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum PhotonKind {
-    /// Light that reaches a rough surface by perfectly smooth ones alone: caustics.
+    /// Light that reaches a rough surface from perfectly smooth ones alone: caustics.
     #[default]
     Caustic,
-    /// All that reaches a rough surface by others, whatever they are.
+    /// All light that reaches a rough surface from other surfaces.
     All,
 }
 
 impl PhotonKind {
-    /// All of them.
+    /// All choices.
     pub const ALL: [Self; 2] = [Self::Caustic, Self::All];
 
-    /// Its name on the command line.
+    /// Name on the command line.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Caustic => "caustic",
@@ -65,14 +65,14 @@ impl PhotonKind {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PhotonOptions {
     /// Options of the camera's paths and of photons together: `bounces` counts scatterings from the light to
-    /// the eye. Panes are opaque, whatever it says, and surfaces of what photons hit are found directly.
+    /// the eye. Panes are always opaque, and surfaces of photons' hits are always found directly.
     pub paths: PathOptions,
-    /// Light that photons bring.
+    /// Light that photons carry.
     pub kind: PhotonKind,
-    /// Photons that lights emit for each sample, from 1 to [`WAVE_LIMIT`].
+    /// Number of photons that lights emit for each sample, from 1 to [`WAVE_LIMIT`].
     pub photon_paths: u32,
-    /// Metres, above 0, of the first sample; a hundredth of the diagonal of the bounds of all triangles where
-    /// absent.
+    /// Radius of the first sample, metres, above 0; if absent, a hundredth of the diagonal of the bounds of
+    /// all triangles.
     pub radius: Option<f32>,
 }
 

@@ -11,7 +11,7 @@ use rasray_shaders_glsl::constants::{
 
 use crate::IntegratorSpec;
 
-/// Maximum number of reflections and refractions of a ray. Each may double the rays.
+/// Maximum number of reflections and refractions of a ray. Each may double the number of rays.
 pub const RAY_DEPTH_LIMIT: u32 = 8;
 
 pub(super) const RAY_DEPTH: OptionRow = OptionRow::new(
@@ -62,27 +62,27 @@ pub(super) const COMPACTION: OptionRow = OptionRow::words(
 )
 .by_default(Value::Word("selected"));
 
-/// Surfaces from which mirrored and refracted rays are traced. Rays that go straight on through a blended
-/// surface or a pane are traced wherever they carry anything.
+/// Surfaces from which mirrored and refracted rays are traced. Rays that go straight through a blended
+/// surface or a pane are traced whenever they carry light.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Select {
-    /// Surfaces whose rays carry more than a threshold of what they find: with 0 the picture is that of all
-    /// rays.
+    /// Surfaces whose rays carry more than a threshold of the light that they find: with 0 the picture is
+    /// that of all rays.
     #[default]
     Expected,
-    /// All, also those that neither mirror nor refract.
+    /// All surfaces, also those that neither mirror nor refract.
     All,
-    /// Mirrors that the camera sees; beyond them as with all rays.
+    /// Mirrors that the camera sees; behind them the rules are those of all rays.
     Reflective,
-    /// Surfaces that mirror or refract; others are lit without shadow rays.
+    /// Surfaces that mirror or refract; other surfaces are lit without shadow rays.
     Specular,
 }
 
 impl Select {
-    /// All of them.
+    /// All choices.
     pub const ALL: [Self; 4] = [Self::Expected, Self::All, Self::Reflective, Self::Specular];
 
-    /// Its name on the command line.
+    /// Name on the command line.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Expected => "expected",
@@ -118,23 +118,23 @@ impl Select {
     }
 }
 
-/// Surfaces that trace shadow rays; the others are lit as if nothing were in the way.
+/// Surfaces from which shadow rays are traced; others are lit as if nothing occluded them.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Shadows {
-    /// All.
+    /// All surfaces.
     #[default]
     All,
-    /// Those that the camera sees.
+    /// Surfaces that the camera sees.
     First,
-    /// None.
+    /// No surfaces.
     None,
 }
 
 impl Shadows {
-    /// All of them.
+    /// All choices.
     pub const ALL: [Self; 3] = [Self::All, Self::First, Self::None];
 
-    /// Its name on the command line.
+    /// Name on the command line.
     pub const fn name(self) -> &'static str {
         match self {
             Self::All => "all",
@@ -168,17 +168,17 @@ impl Shadows {
 /// Options of Whitted's integrator.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WhittedOptions {
-    /// At most this many reflections and refractions in a row, up to [`RAY_DEPTH_LIMIT`]; 0 is direct light
+    /// Largest number of reflections and refractions in a row, up to [`RAY_DEPTH_LIMIT`]; 0 is direct light
     /// only.
     pub ray_depth: u32,
     /// Surfaces from which mirrored and refracted rays are traced.
     pub select: Select,
-    /// With [`Select::Expected`]: share of what a ray finds that must arrive, in its largest channel; not
-    /// negative.
+    /// With [`Select::Expected`]: least share of the light of a ray that must arrive, in its largest channel;
+    /// not negative.
     pub threshold: f32,
-    /// Surfaces that trace shadow rays.
+    /// Surfaces from which shadow rays are traced.
     pub shadows: Shadows,
-    /// Surfaces less rough than this perceptual roughness are perfectly smooth; not negative.
+    /// Perceptual roughness below which surfaces are perfectly smooth; not negative.
     pub mirror_roughness: f32,
     /// True if passes work on all slots of a wave, also those without a ray.
     pub masked: bool,
@@ -198,7 +198,7 @@ impl Default for WhittedOptions {
 }
 
 impl WhittedOptions {
-    /// As a spec has them.
+    /// Reads the options from a spec.
     pub(super) fn of(spec: &IntegratorSpec) -> Self {
         let number = |row: &OptionRow| spec.get(row.name).and_then(Value::number).unwrap_or_default();
         Self {
@@ -211,7 +211,7 @@ impl WhittedOptions {
         }
     }
 
-    /// As the rules of kernels.
+    /// Returns the options as flags for kernels.
     pub(super) fn marks(self) -> u32 {
         self.select.marks() | self.shadows.marks()
     }

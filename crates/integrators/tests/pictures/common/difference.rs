@@ -1,4 +1,4 @@
-//! A device image held against the one of the CPU.
+//! Comparison of a device image with the image of the CPU.
 
 use std::fmt::{self, Debug, Display, Formatter};
 
@@ -19,38 +19,38 @@ fn integrator(name: &str) -> IntegratorSpec {
     IntegratorRow::named(name).expect("it is registered").into()
 }
 
-/// Paths of at most so many bounces.
+/// Makes paths of at most so many bounces.
 pub fn path(bounces: u32) -> IntegratorSpec {
     integrator("path").with("bounces", bounces).expect("valid")
 }
 
-/// Paths with panes that stop shadow rays.
+/// Makes paths with panes that stop shadow rays.
 pub fn opaque_panes(bounces: u32) -> IntegratorSpec {
     path(bounces).with("glass-shadows", "opaque").expect("valid")
 }
 
-/// Occlusion within so many metres.
+/// Makes occlusion within so many metres.
 pub fn occlusion(range: f32) -> IntegratorSpec {
     integrator("ao").with("ao-distance", range).expect("valid")
 }
 
-/// Ray casting.
+/// Makes ray casting.
 pub fn raycast() -> IntegratorSpec {
     integrator("raycast")
 }
 
-/// Measures of an image against its reference.
+/// Differences between an image and its reference.
 pub struct Difference {
     /// Share of the pixels that differ by more than 1e-3 of their value.
     pub share: f64,
-    /// Difference of the means over the reference's.
+    /// Difference of the means over the mean of the reference.
     pub mean: f64,
     /// The image and its reference, [`WIDTH`] pixels a row.
     pictures: [Vec<[f32; 3]>; 2],
 }
 
 impl Difference {
-    /// Fails the running test where more is off than that; both pictures are kept.
+    /// Fails the running test if a difference exceeds its bound; both pictures are kept.
     #[track_caller]
     pub fn assert_within(&self, share: f64, mean: f64, why: impl Display) {
         self.assert(self.share <= share && self.mean <= mean, why);
@@ -82,7 +82,7 @@ pub fn difference(
     sampled_difference(shown, scene, camera, samples, integrator, Sampler::default())
 }
 
-/// Renders with rays that pass backs: on the device `shown`, on the CPU `back_faces`.
+/// Renders with rays that pass backs: `shown` on the device, and on the CPU with `back_faces`.
 pub fn passing_difference(
     [shown, back_faces]: [BackFaces; 2],
     scene: &Scene,

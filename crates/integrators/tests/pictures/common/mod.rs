@@ -15,19 +15,19 @@ use rasray_scene::{Camera, Environment, Instance, Material, Mesh, Projection, Sc
 
 use crate::kept_pictures::Compared;
 
-/// A device with validation on.
+/// Makes a device with validation on.
 pub fn device() -> Device {
     let desc = DeviceDesc { validation: true, ..DeviceDesc::default() };
     Device::create(&desc).expect("these tests need a Vulkan device and the validation layer")
 }
 
-/// A device with validation on that can draw, for options that need it.
+/// Makes a device with validation on that can draw, for options that need it.
 pub fn drawing_device() -> Device {
     let desc = DeviceDesc { validation: true, requirements: Fetch::requirements(), ..DeviceDesc::default() };
     Device::create(&desc).expect("these tests need a Vulkan device that draws")
 }
 
-/// A camera at `eye` that looks along the rows of `axes`.
+/// Makes a camera at `eye` with the given axes.
 pub fn camera(eye: DVec3, right: DVec3, up: DVec3, projection: Projection) -> Camera {
     let axes = DMat3::from_cols(right, up, right.cross(up));
     Camera {
@@ -39,12 +39,12 @@ pub fn camera(eye: DVec3, right: DVec3, up: DVec3, projection: Projection) -> Ca
     }
 }
 
-/// Looks along -z.
+/// Makes a camera that looks along -z.
 pub fn forward_camera(eye: DVec3) -> Camera {
     camera(eye, DVec3::X, DVec3::Y, Projection::Perspective { fov_y: 1.0 })
 }
 
-/// A diffuse material without any specular part: reflects exactly its base colour.
+/// Makes a diffuse material without any specular part: it reflects exactly its base colour.
 pub fn lambert(albedo: f32, emission: f32) -> Material {
     Material {
         base_color: [albedo, albedo, albedo, 1.0],
@@ -56,7 +56,7 @@ pub fn lambert(albedo: f32, emission: f32) -> Material {
     }
 }
 
-/// A square of two triangles with corners at `centre` plus and minus `u` and `v`; counter-clockwise
+/// Makes a square of two triangles with corners at `centre` plus and minus `u` and `v`; counter-clockwise
 /// seen from the side that u x v points to.
 pub fn square(centre: DVec3, u: DVec3, v: DVec3, material: usize) -> Mesh {
     let corners = [centre - u - v, centre + u - v, centre + u + v, centre - u + v];
@@ -69,7 +69,7 @@ pub fn square(centre: DVec3, u: DVec3, v: DVec3, material: usize) -> Mesh {
     }
 }
 
-/// The inside of a cube around the origin, faces turned inwards.
+/// Makes the inside of a cube around the origin, faces turned inwards.
 pub fn box_inside(half: f64, material: usize) -> Vec<Mesh> {
     let mut faces = Vec::new();
     for axis in 0..3 {
@@ -148,10 +148,10 @@ pub fn mean(image: &[[f32; 3]]) -> f64 {
     image.iter().map(|pixel| f64::from(pixel[0])).sum::<f64>() / image.len() as f64
 }
 
-/// The largest difference of pictures by different kernels on hardware, relative to the value.
+/// Largest difference of pictures by different kernels on hardware, relative to the value.
 const CONTRACTION: f32 = 1.0e-5;
 
-/// True if pictures that different kernels made are the same: bit for bit on a software device. Hardware may
+/// True if pictures that different kernels made are equal: bit for bit on a software device. Hardware may
 /// contract a product and a sum in one kernel and not in another.
 pub fn are_same(device: &Device, picture: &[[f32; 3]], expected: &[[f32; 3]]) -> bool {
     let is_close = |(a, b): (&f32, &f32)| (a - b).abs() <= CONTRACTION * b.abs();
@@ -162,8 +162,7 @@ pub fn are_same(device: &Device, picture: &[[f32; 3]], expected: &[[f32; 3]]) ->
         && picture.as_flattened().iter().zip(expected.as_flattened()).all(is_close)
 }
 
-/// Fails the running test unless pictures with `width` pixels a row are the same ([`are_same`]); both are
-/// kept.
+/// Fails the running test unless pictures with `width` pixels a row are equal ([`are_same`]); both are kept.
 #[track_caller]
 pub fn assert_same(
     device: &Device,

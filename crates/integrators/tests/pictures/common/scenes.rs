@@ -1,4 +1,4 @@
-//! Scenes with something of everything that is shaded.
+//! Scenes that use every feature of shading.
 
 use glam::{DAffine3, DMat3, DVec3};
 use rasray_scene::{
@@ -13,7 +13,7 @@ pub fn cornell() -> (Scene, Camera) {
     (scene, camera)
 }
 
-/// A checkered image with alpha in its dark squares.
+/// Makes a checkered image with alpha in its dark squares.
 fn checker(size: u32, dark: [u8; 4], bright: [u8; 4]) -> Image {
     let rgba8 = (0..size * size)
         .flat_map(|i| if (i % size / 3 + i / size / 3).is_multiple_of(2) { dark } else { bright })
@@ -33,7 +33,8 @@ fn with_coordinates(mut mesh: rasray_scene::Mesh) -> rasray_scene::Mesh {
     mesh
 }
 
-/// Every kind of texture, a mask, vertex colours, a mirrored instance, an environment map and lights.
+/// Makes a room with every kind of texture, a mask, vertex colours, a mirrored instance, an environment map
+/// and lights.
 pub fn textured_room() -> Scene {
     let floor = Material {
         base_color_texture: textured(0, 3.0),
@@ -102,7 +103,7 @@ pub fn textured_room() -> Scene {
     scene
 }
 
-/// A solid block of glass, a rough pane, metal, a veil and an unlit sign in a lit box.
+/// Makes a solid block of glass, a rough pane, metal, a veil and an unlit sign in a lit box.
 pub fn glass_room() -> Scene {
     let glass = Material {
         transmission: 1.0,
@@ -122,7 +123,7 @@ pub fn glass_room() -> Scene {
     let mut meshes = box_inside(1.0, 0);
     meshes.push(square(DVec3::new(0.0, 0.98, 0.0), DVec3::X * 0.4, DVec3::Z * 0.4, 1));
     for face in box_inside(0.25, 2) {
-        // Turned outwards and moved to the left.
+        // The face is turned outwards and moved to the left.
         let mut face = face;
         face.indices = face.indices.chunks_exact(3).flat_map(|t| [t[0], t[2], t[1]]).collect();
         for position in &mut face.positions {
@@ -140,8 +141,8 @@ pub fn glass_room() -> Scene {
     scene
 }
 
-/// The glass room with smooth panes, tinted, milky and with holes, more veils, and lights of all kinds in
-/// front of them and behind.
+/// Makes the glass room with smooth panes, tinted, milky and with holes, more veils, and lights of all kinds
+/// in front of them and behind.
 pub fn veiled_room() -> Scene {
     let mut scene = glass_room();
     let pane = Material {
