@@ -1,9 +1,9 @@
-//! The truth of a scene, computed on the processor: exact hits, and images computed naively. Comparisons and
-//! tests hold structures and integrators against it.
+//! Truth of a scene, computed on the processor: exact hits, and images computed naively. Comparisons and
+//! tests check structures and integrators against it.
 //!
 //! - [`oracle`] decides which triangle a ray hits, exactly on the single-precision data of the device.
-//! - [`integrators`] computes an image as each integrator of the registry should, from the scene model.
-//! - [`shading`] has the surfaces, lights, cameras and random numbers of these.
+//! - [`integrators`] computes the correct image of each integrator of the registry, from the scene model.
+//! - [`shading`] has the surfaces, lights, cameras and random numbers of these images.
 //! - [`views`] follows a ray through the cells of views.
 
 pub mod integrators;

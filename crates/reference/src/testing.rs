@@ -5,7 +5,7 @@ use rasray_scene::{Camera, Instance, Material, Mesh, Projection, Sampler, Scene}
 
 use crate::{integrators::Image, shading::View};
 
-/// A diffuse material without any specular reflection.
+/// Makes a diffuse material without any specular reflection.
 pub fn diffuse(albedo: f32) -> Material {
     Material {
         base_color: [albedo, albedo, albedo, 1.0],
@@ -15,7 +15,7 @@ pub fn diffuse(albedo: f32) -> Material {
     }
 }
 
-/// A parallelogram, counter-clockwise seen from the side that `u x v` points to; texture coordinates
+/// Makes a parallelogram, counter-clockwise seen from the side that `u x v` points to; texture coordinates
 /// run along u and against v.
 pub fn quad(corner: Vec3, u: Vec3, v: Vec3, material: usize) -> Mesh {
     Mesh {
@@ -28,7 +28,7 @@ pub fn quad(corner: Vec3, u: Vec3, v: Vec3, material: usize) -> Mesh {
     }
 }
 
-/// The six faces of the box from -half to half; their fronts look outwards, or inwards.
+/// Makes the six faces of the box from -half to half; their fronts face outwards, or inwards.
 pub fn cube(half: f32, inwards: bool, material: usize) -> Mesh {
     let mut mesh = Mesh { name: "cube".to_owned(), material, ..Mesh::default() };
     for axis in 0..3 {
@@ -48,7 +48,7 @@ pub fn cube(half: f32, inwards: bool, material: usize) -> Mesh {
     mesh
 }
 
-/// A unit sphere of 4 * 4^level * 2 triangles: an octahedron divided `level` times.
+/// Makes a unit sphere of 4 * 4^level * 2 triangles: an octahedron divided `level` times.
 pub fn sphere(level: u32, inwards: bool, smooth: bool, material: usize) -> Mesh {
     let [x, y, z] = [Vec3::X, Vec3::Y, Vec3::Z];
     let mut triangles: Vec<[Vec3; 3]> = Vec::new();
@@ -83,7 +83,7 @@ pub fn sphere(level: u32, inwards: bool, smooth: bool, material: usize) -> Mesh 
     }
 }
 
-/// Meshes where they are, one instance each.
+/// Makes a scene of meshes at their own coordinates, one instance each.
 pub fn scene(materials: Vec<Material>, meshes: Vec<Mesh>) -> Scene {
     let instances = (0..meshes.len())
         .map(|mesh| Instance { name: format!("{mesh}"), mesh, world_from_mesh: DAffine3::IDENTITY })
@@ -97,7 +97,7 @@ fn placement(eye: DVec3, target: DVec3) -> DAffine3 {
     DAffine3::from_mat3_translation(DMat3::from_cols(right, back.cross(right), back), eye)
 }
 
-/// A perspective view with a full vertical angle of 0.5 radians.
+/// Makes a perspective view with a full vertical angle of 0.5 radians.
 pub fn view(eye: [f64; 3], target: [f64; 3], size: u32, samples: u32) -> View {
     let world_from_camera = placement(DVec3::from(eye), DVec3::from(target));
     let camera = Camera {
@@ -110,7 +110,7 @@ pub fn view(eye: [f64; 3], target: [f64; 3], size: u32, samples: u32) -> View {
     View { camera, width: size, height: size, samples, seed: 1, sampler: Sampler::default() }
 }
 
-/// A parallel view that shows a square of twice `half_height` metres.
+/// Makes a parallel view that shows a square of twice `half_height` metres.
 pub fn parallel_view(eye: [f64; 3], target: [f64; 3], half_height: f32, size: u32, samples: u32) -> View {
     let mut view = view(eye, target, size, samples);
     view.camera.projection = Projection::Orthographic { half_height };
@@ -126,7 +126,7 @@ pub fn agrees(image: &Image, expected: f64, slack: f64) -> bool {
     (mean - expected).abs() <= 4.0 * (variance / count).sqrt() + slack
 }
 
-/// Asserts the mean, and that the test would have seen a deviation of `power` of it.
+/// Asserts the mean, and that the test would have noticed a deviation of `power` of it.
 pub fn assert_mean(image: &Image, expected: f64, slack: f64, power: f64) {
     assert!(agrees(image, expected, slack), "mean {} instead of {expected}", image.mean()[0]);
     for factor in [1.0 + power, 1.0 - power] {

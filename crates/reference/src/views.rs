@@ -1,29 +1,29 @@
-//! The cells of a cube of views that a ray crosses, in double precision and by nothing but their definition.
+//! Cells of a cube of views that a ray crosses, in double precision, computed directly from their definition.
 
 use std::cmp::Ordering;
 
-/// A segment of a ray within one cell.
+/// Segment of a ray within one cell.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CellChord {
-    /// The view, 0 to 5: along axis `view / 2`, towards positive values where it is even.
+    /// View, 0 to 5: along axis `view / 2`, towards positive values if it is even.
     pub view: u32,
     /// Column and row, from 0 to the resolution less 1.
     pub cell: [u32; 2],
-    /// Entry and exit of the ray, in units of the direction's length.
+    /// Ray parameters of entry and exit, in units of the direction's length.
     pub t: [f64; 2],
 }
 
 impl std::fmt::Display for CellChord {
-    /// One line.
+    /// Writes one line.
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let Self { view, cell: [x, y], t: [t_in, t_out] } = self;
         write!(f, "cell ({x}, {y}) of view {view}, t {t_in} to {t_out}")
     }
 }
 
-/// Cells in the order in which the ray crosses them for `range[0] < t < range[1]`. The origin is relative to
-/// the eye, in metres; the direction need not be unit; the resolution is the number of cells along a side.
-/// A ray along a boundary is given to the cell above it. Empty for a direction of zero.
+/// Returns the cells in the order in which the ray crosses them for `range[0] < t < range[1]`. The origin is
+/// relative to the eye, in metres; the direction need not be unit; the resolution is the number of cells
+/// along a side. A ray along a boundary belongs to the cell above it. Empty for a direction of zero.
 pub fn cells_along(
     origin: [f64; 3],
     direction: [f64; 3],
@@ -37,7 +37,7 @@ pub fn cells_along(
     let side = f64::from(resolution);
     for view in 0..6 {
         let (o, d) = (in_view(origin, view), in_view(direction, view));
-        // The pyramid |x| <= z, |y| <= z.
+        // The view is the pyramid |x| <= z, |y| <= z.
         let mut interval = range;
         for axis in 0..2 {
             for sign in [1.0, -1.0] {
@@ -74,7 +74,7 @@ pub fn cells_along(
     chords
 }
 
-/// A vector as a view sees it: a permutation and a change of sign.
+/// Returns a vector as a view sees it: a permutation and a change of sign.
 fn in_view(p: [f64; 3], view: u32) -> [f64; 3] {
     let [x, y, z] = match view / 2 {
         0 => [p[1], p[2], p[0]],
@@ -84,7 +84,7 @@ fn in_view(p: [f64; 3], view: u32) -> [f64; 3] {
     [x, y, if view % 2 == 1 { -z } else { z }]
 }
 
-/// The part of a range where `at_zero + t slope >= 0`; empty where its ends are out of order.
+/// Returns the part of a range where `at_zero + t slope >= 0`; empty if its ends are out of order.
 fn clip([low, high]: [f64; 2], at_zero: f64, slope: f64) -> [f64; 2] {
     if slope == 0.0 {
         return if at_zero >= 0.0 { [low, high] } else { [1.0, 0.0] };
@@ -118,7 +118,7 @@ mod tests {
         for pair in chords.windows(2) {
             assert!((pair[0].t[1] - pair[1].t[0]).abs() < 1e-9, "{} then {}", pair[0], pair[1]);
         }
-        // A chord left out is a gap.
+        // A missing chord is a gap.
         let mut gap = chords.clone();
         gap.remove(3);
         assert!(gap.windows(2).any(|pair| (pair[0].t[1] - pair[1].t[0]).abs() > 1e-9));

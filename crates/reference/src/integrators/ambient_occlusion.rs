@@ -19,7 +19,7 @@ pub(super) const ROW: NaiveIntegrator = NaiveIntegrator {
 };
 
 impl Tracer<'_> {
-    /// One sample: 1 if nothing is hit within `distance` metres, else 0.
+    /// Returns one sample: 1 if nothing is hit within `distance` metres, else 0.
     pub(super) fn ambient_occlusion(&self, view: &View, distance: f32, random: Numbers) -> Vec3 {
         let ray = self.camera_ray(view, random);
         let Some(surface) = self.closest(&ray) else { return Vec3::ONE };
@@ -33,19 +33,20 @@ impl Tracer<'_> {
 }
 
 impl PosedScene<'_> {
-    /// Cosine-weighted visibility of a white environment within `distance` metres; background 1.
+    /// Renders the cosine-weighted visibility of a white environment within `distance` metres; the background
+    /// is 1.
     ///
     /// # Errors
-    /// If the image is empty or the scene has more triangles than ids.
+    /// An error if the image is empty or the scene has more triangles than ids.
     pub fn render_ambient_occlusion(&self, view: &View, distance: f32) -> Result<Image, ReferenceError> {
         self.render(view, false, |tracer, random| tracer.ambient_occlusion(view, distance, random))
     }
 }
 
-/// [`PosedScene::render_ambient_occlusion`] with the frame origin at the eye.
+/// Renders like [`PosedScene::render_ambient_occlusion`], with the frame origin at the eye.
 ///
 /// # Errors
-/// If the scene names what it does not have, or the image is empty.
+/// An error if the scene refers to an element that it does not have, or the image is empty.
 pub fn render_ambient_occlusion(
     scene: &Scene,
     camera: &Camera,

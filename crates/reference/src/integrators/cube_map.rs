@@ -1,5 +1,5 @@
-//! Environment mapping, as `docs/cube-map.md` defines it. No map is stored: each lookup makes the four texels
-//! that it blends.
+//! Environment mapping, as `docs/cube-map.md` defines it. No map is stored: each look-up computes the four
+//! texels that it blends.
 
 use glam::{DVec3, Vec3};
 use rasray_options::{OptionValues, Value};
@@ -18,19 +18,19 @@ pub(super) const ROW: NaiveIntegrator = NaiveIntegrator {
     render: |posed, view, values| posed.render_whitted(view, rules(posed, view, values)),
 };
 
-/// Branch of the rays of a map, which their random numbers depend on.
+/// Branch of the rays of a map, on which their random numbers depend.
 const BRANCH: u32 = 1;
 
-/// A cube map that is drawn from a point.
+/// Cube map that is drawn from a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct CubeMap {
-    /// Texels along a side of a face, without the border of one texel around it.
+    /// Number of texels along a side of a face, without the border of one texel around it.
     resolution: u32,
-    /// Relative to the frame origin.
+    /// Centre of projection, metres, relative to the frame origin.
     position: Vec3,
     /// Width of the cone of a ray per metre.
     cone_spread: f32,
-    /// True if surfaces that it shows are in shadow.
+    /// True if surfaces in the map are in shadow.
     has_shadows: bool,
 }
 
@@ -51,7 +51,7 @@ fn rules(posed: &PosedScene<'_>, view: &View, values: &OptionValues) -> Rules {
     Rules { map: Some(map), ..rules }
 }
 
-/// The centre of the bounds of all triangles whose material is perfectly smooth.
+/// Returns the centre of the bounds of all triangles whose material is perfectly smooth.
 fn centre_of_smooth(posed: &PosedScene<'_>, rules: &Rules) -> Option<Vec3> {
     let is_smooth = |primitive: &u32| {
         let material = posed.material_of(*primitive);
@@ -67,7 +67,7 @@ fn centre_of_smooth(posed: &PosedScene<'_>, rules: &Rules) -> Option<Vec3> {
 }
 
 impl Tracer<'_> {
-    /// Light that a cube map shows in a direction, W/(sr m^2).
+    /// Returns the light that a cube map shows in a direction, W/(sr m^2).
     pub(super) fn looked_up(&self, rules: &Rules, map: &CubeMap, random: Numbers, direction: Vec3) -> Vec3 {
         let axis = (0..3).fold(
             0,
@@ -89,7 +89,8 @@ impl Tracer<'_> {
         upper.lerp(lower, down)
     }
 
-    /// A texel of the map that a sample has: what a ray through a random place of it finds, lit directly.
+    /// Computes a texel of a sample's map: the directly lit surface that a ray through a random point of the
+    /// texel finds.
     fn texel(&self, rules: &Rules, map: &CubeMap, random: Numbers, [face, column, row]: [u32; 3]) -> Vec3 {
         let side = map.resolution + 2;
         let pixel = (face * side + row) * side + column;

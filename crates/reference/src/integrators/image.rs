@@ -3,19 +3,19 @@ use rayon::prelude::*;
 
 use crate::shading::{View, random::Numbers};
 
-/// A linear RGB image, rows top first.
+/// Linear RGB image, rows top first.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Image {
-    /// Pixels a row.
+    /// Number of pixels per row.
     pub width: u32,
-    /// Rows.
+    /// Number of rows.
     pub height: u32,
-    /// W/(sr m^2), or a share of 1 for ambient occlusion.
+    /// Pixels in W/(sr m^2), or shares of 1 for ambient occlusion.
     pub pixels: Vec<[f32; 3]>,
 }
 
 impl Image {
-    /// The mean of all samples of each pixel, added in f64 in the order of the samples.
+    /// Computes the mean of all samples of each pixel, added in f64 in the order of the samples.
     pub(super) fn render(view: &View, sample: impl Fn(Numbers) -> Vec3 + Sync) -> Self {
         let pixels = (0..view.width * view.height)
             .into_par_iter()
@@ -30,7 +30,7 @@ impl Image {
         Self { width: view.width, height: view.height, pixels }
     }
 
-    /// Mean over all pixels, by channel.
+    /// Returns the mean over all pixels, by channel.
     pub fn mean(&self) -> [f64; 3] {
         let count = self.pixels.len().max(1) as f64;
         std::array::from_fn(|channel| {

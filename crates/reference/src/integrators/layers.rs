@@ -15,7 +15,7 @@ pub(super) const ROW: NaiveIntegrator = NaiveIntegrator {
     },
 };
 
-/// Surfaces that one ray passes; what lies behind the next one is not seen.
+/// Largest number of surfaces that one ray passes; the surface behind them is not seen.
 const LAYER_LIMIT: u32 = 4096;
 
 impl Tracer<'_> {
@@ -43,11 +43,11 @@ impl Tracer<'_> {
 }
 
 impl PosedScene<'_> {
-    /// The first `limit` surfaces along camera rays, lit from the eye, each with `opacity` times the opacity
-    /// of its material; W/(sr m^2), with a light of 1 at the eye.
+    /// Renders the first `limit` surfaces along camera rays, lit from the eye, each with `opacity` times the
+    /// opacity of its material; W/(sr m^2), with a light of 1 at the eye.
     ///
     /// # Errors
-    /// If the image is empty or the scene has more triangles than ids.
+    /// An error if the image is empty or the scene has more triangles than ids.
     pub fn render_layers(&self, view: &View, limit: u32, opacity: f32) -> Result<Image, ReferenceError> {
         self.render(view, false, |tracer, random| tracer.layers(view, limit, opacity, random))
     }

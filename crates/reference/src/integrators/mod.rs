@@ -1,7 +1,7 @@
 //! Images computed on the CPU, one sample of one pixel after the other, with exact hits.
 //!
-//! The random numbers are those of the device, so that an image from here differs from one of a
-//! device by rounding and by wrong hits, not by noise.
+//! The random numbers are those of the device, so that a reference image differs from a device image by
+//! rounding and by wrong hits, not by noise.
 
 #![expect(
     clippy::neg_cmp_op_on_partial_ord,
@@ -36,18 +36,19 @@ use crate::{
     },
 };
 
-/// Renders a view with the values of an integrator's options; those that have none are absent.
+/// Function that renders a view with the values of an integrator's options; options without a value are
+/// absent.
 type Render = fn(&PosedScene<'_>, &View, &OptionValues) -> Result<Image, ReferenceError>;
 
-/// A naive integrator: one that is written down as it is defined.
+/// Naive integrator, written down as it is defined.
 #[derive(Clone, Copy, Debug)]
 pub struct NaiveIntegrator {
-    /// The name of the integrator of devices that it is the reference of.
+    /// Name of the device integrator for which it is the reference.
     pub name: &'static str,
     render: Render,
 }
 
-/// Every naive integrator.
+/// All naive integrators.
 pub static INTEGRATORS: &[NaiveIntegrator] = &[
     path::ROW,
     whitted::ROW,
@@ -59,7 +60,7 @@ pub static INTEGRATORS: &[NaiveIntegrator] = &[
 ];
 
 impl NaiveIntegrator {
-    /// The one of that name.
+    /// Returns the integrator of that name.
     pub fn named(name: &str) -> Option<&'static Self> {
         INTEGRATORS.iter().find(|row| row.name == name)
     }
@@ -67,7 +68,7 @@ impl NaiveIntegrator {
     /// Renders a view with the values of the integrator's options.
     ///
     /// # Errors
-    /// If the image is empty or the scene has more triangles than ids.
+    /// An error if the image is empty or the scene has more triangles than ids.
     pub fn render(
         &self,
         posed: &PosedScene<'_>,
@@ -84,7 +85,7 @@ struct Tracer<'a> {
     oracle: Oracle<'a>,
     /// True if light goes straight through smooth thin panes.
     passes_panes: bool,
-    /// Surfaces less rough than this are perfectly smooth.
+    /// Roughness below which surfaces are perfectly smooth.
     mirror_roughness: f32,
 }
 
@@ -112,14 +113,14 @@ impl Tracer<'_> {
         self.oracle.occluded(&self.spawned(*ray).to_oracle()).occluded
     }
 
-    /// The ray of one sample of a pixel.
+    /// Returns the ray of one sample of a pixel.
     fn camera_ray(&self, view: &View, random: Numbers) -> Ray {
         let ray = camera_ray(view, self.posed.frame_origin(), pixel_position(view.width, random));
         let ray = through_lens(&view.camera, ray, lens_numbers(random));
         Ray { culls_back_faces: self.posed.back_faces().lets_camera_rays(), ..ray }
     }
 
-    /// A ray that left a surface, with the backs that such rays pass.
+    /// Marks a ray that left a surface with the backs that such rays pass.
     fn spawned(&self, ray: Ray) -> Ray {
         Ray { culls_back_faces: self.posed.back_faces().lets_other_rays(), ..ray }
     }
@@ -135,8 +136,8 @@ impl PosedScene<'_> {
         self.render_smoothed(view, (passes_panes, 0.0), sample)
     }
 
-    /// `smoothed`: whether light goes straight through smooth thin panes, and the roughness below which
-    /// surfaces are perfectly smooth.
+    /// Renders with the two values of `smoothed`: true if light goes straight through smooth thin panes, and
+    /// the roughness below which surfaces are perfectly smooth.
     fn render_smoothed(
         &self,
         view: &View,

@@ -22,19 +22,19 @@ pub(super) const ROW: NaiveIntegrator = NaiveIntegrator {
 /// Options of paths.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PathOptions {
-    /// At most this many scatterings.
+    /// Largest number of scatterings.
     pub bounces: u32,
     /// True if light goes straight through smooth thin panes and takes their tint, unless there are no
-    /// bounces; else panes stop shadow rays, and going through is a scattering.
+    /// bounces. Otherwise panes stop shadow rays, and the passage is a scattering.
     pub passes_panes: bool,
-    /// Origin of shadow rays of smooth surfaces.
+    /// Origin of shadow rays on smooth surfaces.
     pub shadow_terminator: ShadowTerminator,
     /// True if surfaces reflect by Ward's lobe ([`Surface::is_ward`]).
     pub is_ward: bool,
 }
 
 impl From<u32> for PathOptions {
-    /// This many bounces, and the usual of everything else.
+    /// Makes options with this many bounces, and all other defaults.
     fn from(bounces: u32) -> Self {
         Self { bounces, passes_panes: true, shadow_terminator: ShadowTerminator::None, is_ward: false }
     }
@@ -55,34 +55,34 @@ pub(super) fn path_options(values: &OptionValues) -> PathOptions {
     }
 }
 
-/// A path may be ended at random from this scattering on.
+/// Number of the scattering from which on a path may be ended at random.
 const ROULETTE_BOUNCE: u32 = 3;
-/// Surfaces that one ray passes in a straight line.
+/// Largest number of surfaces that one ray passes in a straight line.
 pub(super) const LAYER_LIMIT: u32 = 4096;
 
 pub(super) struct PathState {
     pub random: Numbers,
     pub throughput: Vec3,
     radiance: Vec3,
-    /// 1/sr of the last scattering; `None`: emission hit next counts fully.
+    /// Density of the last scattering, 1/sr; with `None` the emission at the next hit counts fully.
     bsdf_pdf: Option<f32>,
-    /// Photons bring the light that light samples know: the last scatterings were perfectly smooth and one
-    /// before was not.
+    /// True if photons carry the light that light samples find: the last scatterings were perfectly smooth
+    /// and an earlier one was not.
     is_of_photons: bool,
-    /// Material whose inside the path is in.
+    /// Index of the material whose inside the path is in.
     pub medium: Option<usize>,
-    /// Scatterings so far.
+    /// Number of scatterings so far.
     pub bounce: u32,
-    /// So far, of going straight on through a surface or not.
+    /// Number of random choices so far whether to go straight through a surface.
     choices: u32,
-    /// Surfaces that the ray has passed in a straight line.
+    /// Number of surfaces that the ray has passed in a straight line.
     passed: u32,
     /// Point of the last scattering.
     pub origin: Vec3,
     shadow_terminator: ShadowTerminator,
 }
 
-/// Weight of the technique with density `used` against one with density `other`.
+/// Returns the weight of the technique with density `used` against the one with density `other`.
 fn power_heuristic(used: f32, other: f32) -> f32 {
     if !(other > 0.0) {
         return 1.0;
@@ -92,7 +92,7 @@ fn power_heuristic(used: f32, other: f32) -> f32 {
 }
 
 impl PathState {
-    /// A path before its first ray.
+    /// Makes a path before its first ray.
     pub fn new(random: Numbers, shadow_terminator: ShadowTerminator) -> Self {
         Self {
             random,
@@ -109,21 +109,21 @@ impl PathState {
         }
     }
 
-    /// True if the path goes straight on through a surface, with this probability.
+    /// True if the path goes straight through a surface, with this probability.
     pub fn chooses(&mut self, probability: f32) -> bool {
         let dimension = RANDOM_OPACITY_FIRST + self.choices;
         self.choices += 1;
         self.random.float(dimension) < probability
     }
 
-    /// Straight on behind the surface: no scattering, since shadow rays go through as well.
+    /// Continues straight behind the surface: no scattering, since shadow rays go through as well.
     pub fn pass(&mut self, ray: &Ray, surface: &Surface, footprint: f32) -> Option<Ray> {
         if self.passed >= LAYER_LIMIT {
             return None;
         }
         self.passed += 1;
         let ahead = spawn_ray(surface, ray.direction, f32::INFINITY);
-        // As the ray that it is: a camera ray passes the backs that camera rays pass.
+        // The ray keeps its kind: a camera ray passes the backs that camera rays pass.
         let culls_back_faces = ray.culls_back_faces;
         Some(Ray { culls_back_faces, cone_width: footprint, cone_spread: ray.cone_spread, ..ahead })
     }
@@ -137,7 +137,7 @@ impl PathState {
 }
 
 impl Tracer<'_> {
-    /// One sample, W/(sr m^2); with a map, some light is that of its photons.
+    /// Returns one sample, W/(sr m^2); with a map, its photons carry part of the light.
     pub(super) fn path(&self, view: &View, options: PathOptions, map: Option<&Map>, random: Numbers) -> Vec3 {
         let PathOptions { shadow_terminator, is_ward, .. } = options;
         let mut state = PathState::new(random, shadow_terminator);
@@ -204,7 +204,7 @@ impl Tracer<'_> {
         next.map(|ray| self.spawned(ray))
     }
 
-    /// One light sample, seen from the surface.
+    /// Returns one light sample, seen from the surface.
     fn direct_light(&self, state: &PathState, surface: &Surface, o: Vec3) -> Vec3 {
         let random = state.random.four(random_dimension(state.bounce, RANDOM_LIGHT_KIND));
         let smooth = match state.shadow_terminator {
@@ -212,7 +212,7 @@ impl Tracer<'_> {
             ShadowTerminator::Offset => self.posed.terminator_surface(surface, o),
         };
         let Some(light) = self.posed.light_sample(&smooth, random) else { return Vec3::ZERO };
-        // Scattered rays do not leave below the triangle, so nothing else finds the light there.
+        // Scattered rays do not leave below the triangle, so no other technique finds the light there.
         let above = |normal: Vec3| light.direction.dot(normal) > 0.0;
         let is_found = above(surface.geometric_normal) == above(smooth.geometric_normal);
         let pending = state.throughput * reflected(&smooth, o, &light, is_found);
@@ -222,7 +222,8 @@ impl Tracer<'_> {
         light.shadow_ray(&smooth).map_or(Vec3::ZERO, |ray| pending * self.arriving(ray, light.target))
     }
 
-    /// Share of the light that arrives along a shadow ray, which ends at `target` where there is one.
+    /// Returns the share of the light that arrives along a shadow ray, which ends at `target` if there is
+    /// one.
     pub(super) fn arriving(&self, mut ray: Ray, target: Option<Vec3>) -> Vec3 {
         let mut share = Vec3::ONE;
         for _ in 0..=LAYER_LIMIT {
@@ -236,7 +237,7 @@ impl Tracer<'_> {
                 Some(target) => spawn_segment(&surface, target),
                 None => Some(spawn_ray(&surface, ray.direction, f32::INFINITY)),
             };
-            // Nothing lies between the surface and a light that touches it.
+            // A light that touches the surface has nothing before it.
             let Some(ahead) = ahead else { return share };
             ray = ahead;
         }
@@ -244,8 +245,8 @@ impl Tracer<'_> {
     }
 }
 
-/// Light that the surface sends along `o` of an unoccluded light sample, weighted; `is_found` where scattered
-/// rays find it, too.
+/// Returns the light of an unoccluded light sample that the surface sends along `o`, weighted; `is_found` is
+/// true if scattered rays find the light, too.
 fn reflected(surface: &Surface, o: Vec3, light: &LightSample, is_found: bool) -> Vec3 {
     let value = bsdf_times_cosine(surface, o, light.direction);
     let weight = if light.delta || !is_found {
@@ -256,7 +257,7 @@ fn reflected(surface: &Surface, o: Vec3, light: &LightSample, is_found: bool) ->
     value * light.radiance * (weight / light.pdf)
 }
 
-/// Goes on in the direction that was chosen, unless the path ends.
+/// Continues in the chosen direction, unless the path ends.
 pub(super) fn scatter(
     state: &mut PathState,
     ray: &Ray,
@@ -286,10 +287,10 @@ pub(super) fn scatter(
 }
 
 impl PosedScene<'_> {
-    /// Path tracing; W/(sr m^2). A number of bounces will do for the options.
+    /// Renders by path tracing; W/(sr m^2). A number of bounces converts into options.
     ///
     /// # Errors
-    /// If the image is empty or the scene has more triangles than ids.
+    /// An error if the image is empty or the scene has more triangles than ids.
     pub fn render_path(&self, view: &View, options: impl Into<PathOptions>) -> Result<Image, ReferenceError> {
         let options = options.into();
         let passes_panes = options.passes_panes && options.bounces > 0;
@@ -297,10 +298,10 @@ impl PosedScene<'_> {
     }
 }
 
-/// [`PosedScene::render_path`] with the frame origin at the eye.
+/// Renders like [`PosedScene::render_path`], with the frame origin at the eye.
 ///
 /// # Errors
-/// If the scene names what it does not have, or the image is empty.
+/// An error if the scene refers to an element that it does not have, or the image is empty.
 pub fn render_path(
     scene: &Scene,
     camera: &Camera,

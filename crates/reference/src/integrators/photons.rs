@@ -1,4 +1,5 @@
-//! Photon maps, as `docs/photons.md` defines them. A surface looks at every photon of the map.
+//! Photon maps, as `docs/photons.md` defines them. A surface gathers from every photon of the map, without a
+//! search structure.
 
 use glam::{DVec3, Vec3};
 use rasray_options::{OptionValues, Value};
@@ -20,9 +21,9 @@ pub(super) const ROW: NaiveIntegrator = NaiveIntegrator {
     render: |posed, view, values| posed.render_photons(view, &rules(values)),
 };
 
-/// In the place of a pixel, with the number of the sample, of the random numbers of photons.
+/// Bit that, together with the number of the sample, stands for the pixel in the random numbers of photons.
 const PHOTON_PIXEL: u32 = 0x8000_0000;
-/// The radius of the first sample over the diagonal of the box of all triangles, where none is given.
+/// Default radius of the first sample, as a share of the diagonal of the box of all triangles.
 const RADIUS_SHARE: f64 = 0.01;
 /// Share of the photons of a sample that the radius of the next one keeps.
 const KEPT_SHARE: f64 = 2.0 / 3.0;
@@ -43,29 +44,30 @@ fn rules(values: &OptionValues) -> Rules {
     }
 }
 
-/// Light that arrived at a surface after at least one scattering.
+/// Photon: light that arrived at a surface after at least one scattering.
 #[derive(Clone, Copy, Debug)]
 struct Photon {
     position: Vec3,
-    /// Unit, to where it came from.
+    /// Unit direction towards the photon's origin.
     direction: Vec3,
-    /// Scatterings so far.
+    /// Number of scatterings so far.
     bounce: u32,
-    /// W.
+    /// Flux, W.
     flux: Vec3,
 }
 
-/// The photons of a sample.
+/// Photons of a sample.
 pub(super) struct Map {
-    /// True if photons bring all indirect light, and not caustics alone.
+    /// True if photons carry all indirect light, and not caustics alone.
     pub has_all: bool,
-    /// Metres within which they count.
+    /// Distance within which photons count, metres.
     radius: f32,
     photons: Vec<Photon>,
 }
 
 impl Map {
-    /// W/(sr m^2) along `o` of the photons around a surface that were scattered at most so often.
+    /// Returns the radiance along `o`, W/(sr m^2), from the photons around a surface that were scattered at
+    /// most `scatterings` times.
     pub fn gathered(&self, surface: &Surface, o: Vec3, scatterings: u32) -> Vec3 {
         let mut sum = DVec3::ZERO;
         let radius = f64::from(self.radius);
@@ -83,8 +85,8 @@ impl Map {
     }
 }
 
-/// Ratio of the radiance that photons carry on along `i` to that which paths see along it, at a shading
-/// normal.
+/// Returns the ratio of the radiance that photons carry along `i` to the radiance that paths see along it, at
+/// a shading normal.
 fn shading_normal_share(surface: &Surface, o: Vec3, i: Vec3) -> f32 {
     let (shading, geometric) = (surface.normal, surface.geometric_normal);
     let leaving = shading.dot(i).abs() * geometric.dot(o);
@@ -95,7 +97,7 @@ fn shading_normal_share(surface: &Surface, o: Vec3, i: Vec3) -> f32 {
 }
 
 impl Tracer<'_> {
-    /// The photons that one path stores.
+    /// Returns the photons that one path stores.
     fn photons(&self, rules: &Rules, random: Numbers) -> Vec<Photon> {
         let mut stored = Vec::new();
         let towards = random.four(random_dimension(0, RANDOM_LIGHT_KIND));

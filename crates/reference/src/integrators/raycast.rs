@@ -7,14 +7,15 @@ pub(super) const ROW: NaiveIntegrator =
     NaiveIntegrator { name: "raycast", render: |posed, view, _| posed.render_raycast(view) };
 
 impl Surface {
-    /// Emission plus base colour times the cosine between shading normal and the unit `direction` of the ray.
+    /// Returns emission plus base colour times the cosine between shading normal and the unit `direction` of
+    /// the ray.
     pub(super) fn raycast(&self, direction: Vec3) -> Vec3 {
         self.emission + self.base_color * self.normal.dot(direction).abs()
     }
 }
 
 impl Tracer<'_> {
-    /// One sample: emission plus base colour times the cosine between shading normal and ray, or the
+    /// Returns one sample: emission plus base colour times the cosine between shading normal and ray, or the
     /// environment.
     pub(super) fn raycast(&self, view: &View, random: Numbers) -> Vec3 {
         let ray = self.camera_ray(view, random);
@@ -29,7 +30,7 @@ impl PosedScene<'_> {
     /// Renders the surfaces that camera rays hit, lit from the eye; W/(sr m^2), with a light of 1 there.
     ///
     /// # Errors
-    /// If the image is empty or the scene has more triangles than ids.
+    /// An error if the image is empty or the scene has more triangles than ids.
     pub fn render_raycast(&self, view: &View) -> Result<Image, ReferenceError> {
         self.render(view, false, |tracer, random| tracer.raycast(view, random))
     }

@@ -17,27 +17,28 @@ pub(super) const ROW: NaiveIntegrator = NaiveIntegrator {
     render: |posed, view, values| posed.render_whitted(view, Rules::of(values)),
 };
 
-/// Rays that are followed.
+/// Rules that choose the rays to follow.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Rules {
     pub ray_depth: u32,
-    /// Weight above which a ray is followed. Rays without weight change no picture, so none is followed here.
+    /// Weight above which a ray is followed. Rays without weight do not change pictures, so none is followed
+    /// here.
     pub threshold: f32,
-    /// Surfaces that the camera sees send no ray on unless they mirror.
+    /// True if surfaces that the camera sees send no ray on unless they mirror.
     pub from_reflective: bool,
-    /// Surfaces that neither mirror nor refract are lit without shadow rays.
+    /// True if surfaces that neither mirror nor refract are lit without shadow rays.
     pub specular_shadows: bool,
-    /// Reflections and refractions up to which surfaces are in shadow.
+    /// Largest number of reflections and refractions at which surfaces are in shadow.
     pub shadow_depth: Option<u32>,
     pub mirror_roughness: f32,
-    /// Answers mirrored and refracted rays in place of their trees.
+    /// Map that answers mirrored and refracted rays in place of their trees.
     pub map: Option<CubeMap>,
-    /// Rays go on behind smooth surfaces that they hit from behind.
+    /// True if rays go on behind smooth surfaces that they hit from behind.
     pub passes_backs: bool,
 }
 
 impl Rules {
-    /// Options that are absent have no effect.
+    /// Reads the rules from options; absent options have no effect.
     pub fn of(values: &OptionValues) -> Self {
         let is = |option, word: &str| values.get(option).and_then(Value::word) == Some(word);
         let number = |option| values.get(option).and_then(Value::number).unwrap_or_default();
@@ -68,16 +69,16 @@ impl Rules {
 #[derive(Clone, Copy)]
 pub(super) struct Node {
     throughput: Vec3,
-    /// Material whose inside the ray is in.
+    /// Index of the material whose inside the ray is in.
     medium: Option<usize>,
-    /// Reflections and refractions so far.
+    /// Number of reflections and refractions so far.
     depth: u32,
-    /// Refractions and passed surfaces that led here.
+    /// Number of the branch, from the refractions and passed surfaces on the way.
     branch: u32,
 }
 
 impl Node {
-    /// The first node of a tree.
+    /// Returns the first node of a tree.
     pub fn root(branch: u32) -> Self {
         Self { throughput: Vec3::ONE, medium: None, depth: 0, branch }
     }
@@ -89,7 +90,7 @@ impl Node {
 }
 
 impl Tracer<'_> {
-    /// Light that a ray of a tree finds, W/(sr m^2), as far as the camera sees it.
+    /// Returns the light that a ray of a tree finds, W/(sr m^2), as far as the camera sees it.
     pub(super) fn tree(&self, rules: &Rules, random: Numbers, mut ray: Ray, mut node: Node) -> Vec3 {
         let mut radiance = Vec3::ZERO;
         for _ in 0..=LAYER_LIMIT {
@@ -108,7 +109,7 @@ impl Tracer<'_> {
                 break;
             }
             node.branch = node.branched(false);
-            // As the ray that it is: a camera ray passes the backs that camera rays pass.
+            // The ray keeps its kind: a camera ray passes the backs that camera rays pass.
             let culls_back_faces = ray.culls_back_faces;
             let through = left(&ray, &surface, ray.direction);
             ray = Ray { culls_back_faces, ..through };
@@ -116,7 +117,7 @@ impl Tracer<'_> {
         radiance
     }
 
-    /// Light that a surface sends along a ray, without the light that goes straight through it.
+    /// Returns the light that a surface sends along a ray, without the light that goes straight through it.
     fn surface(&self, rules: &Rules, random: Numbers, ray: &Ray, node: Node, surface: &Surface) -> Vec3 {
         let throughput = node.throughput * surface.opacity;
         let mut radiance = throughput * surface.emission;
@@ -152,7 +153,7 @@ impl Tracer<'_> {
         radiance
     }
 
-    /// One light sample of everything but the perfect lobes.
+    /// Returns one light sample for all lobes but the perfect ones.
     fn light(&self, surface: &Surface, o: Vec3, random: Numbers, node: Node, in_shadow: bool) -> Vec3 {
         let dimension =
             random_dimension(node.depth, RANDOM_LIGHT_KIND).wrapping_add(node.branch.wrapping_mul(256));
@@ -165,8 +166,8 @@ impl Tracer<'_> {
     }
 }
 
-/// The mirrored and the refracted lobe of a perfectly smooth surface, where there is one: the random numbers
-/// that choose a lobe are set to the ends of their ranges.
+/// Returns the mirrored and the refracted lobe of a perfectly smooth surface, if it has them: the random
+/// numbers that choose a lobe are set to the ends of their ranges.
 fn perfect_lobes(surface: &Surface, o: Vec3) -> [Option<BsdfSample>; 2] {
     let last = 1.0_f32.next_down();
     let lobe = |side| bsdf_sample(surface, o, [last, side, 0.5, 0.5]).filter(|lobe| lobe.delta);
@@ -177,14 +178,14 @@ fn perfect_lobes(surface: &Surface, o: Vec3) -> [Option<BsdfSample>; 2] {
     ]
 }
 
-/// A ray that leaves a surface with the cone of the one that reached it.
+/// Makes a ray that leaves a surface with the cone of the ray that reached it.
 fn left(ray: &Ray, surface: &Surface, direction: Vec3) -> Ray {
     let cone_width = ray.cone_width + ray.cone_spread * surface.t;
     Ray { cone_width, cone_spread: ray.cone_spread, ..spawn_ray(surface, direction, f32::INFINITY) }
 }
 
 impl PosedScene<'_> {
-    /// Whitted's ray tracing; W/(sr m^2).
+    /// Renders by Whitted's ray tracing; W/(sr m^2).
     pub(super) fn render_whitted(&self, view: &View, rules: Rules) -> Result<Image, ReferenceError> {
         self.render_smoothed(view, (true, rules.mirror_roughness), |tracer, random| {
             tracer.tree(&rules, random, tracer.camera_ray(view, random), Node::root(0))

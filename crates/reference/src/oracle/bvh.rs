@@ -1,12 +1,12 @@
-//! A hierarchy of boxes in double precision that proposes a superset of the triangles a ray may touch.
+//! Hierarchy of boxes in double precision that proposes a superset of the triangles that a ray may touch.
 
 use super::contact::ContactTest;
 
 const LEAF_SIZE: usize = 4;
 const BINS: usize = 16;
-/// Boxes grow by this part of their farthest corner's distance from the ray's origin. Double precision
-/// needs 4 * 2^-53; single-precision tests may accept triangles that the ray misses by about 64 * 2^-24
-/// of that distance, and those must be proposed as well.
+/// Padding of boxes, as a share of the distance between their farthest corner and the ray's origin. Double
+/// precision needs 4 * 2^-53; single-precision tests may accept triangles that the ray misses by about 64 *
+/// 2^-24 of that distance, and those must be proposed as well.
 const PADDING: f64 = 1.0 / 65536.0;
 
 #[derive(Clone, Copy)]
@@ -46,9 +46,9 @@ impl Bounds {
 
 struct Node {
     bounds: Bounds,
-    /// First child (the second follows), or first entry of `slots`.
+    /// Index of the first child (the second follows), or of the first entry of `slots`.
     first: usize,
-    /// Entries of a leaf; zero for an inner node.
+    /// Number of entries of a leaf; zero for an inner node.
     count: usize,
 }
 
@@ -86,7 +86,8 @@ impl Bvh {
         self.visit_nodes(test, |_, _, _| (), triangle);
     }
 
-    /// As [`Bvh::visit`], and calls `node(number, least t, triangles)` for every node entered before.
+    /// Visits triangles like [`Bvh::visit`], and calls `node(number, least t, triangles)` before, for every
+    /// node entered.
     pub fn visit_nodes(
         &self,
         test: &ContactTest,
@@ -120,9 +121,9 @@ impl Bvh {
 }
 
 impl ContactTest {
-    /// A lower bound of the t of every contact in the box along the direction's longest axis; `None`
-    /// if the ray's line misses the padded box or the box lies outside of the range. Contacts may
-    /// report a t before the ray enters the box on the other axes, so those do not raise the bound.
+    /// Returns a lower bound of the t of every contact in the box along the direction's longest axis; `None`
+    /// if the ray's line misses the padded box or the box lies outside of the range. Contacts may report a t
+    /// before the ray enters the box on the other axes, so those axes do not raise the bound.
     fn entry(&self, bounds: &Bounds, inverse: &[f64; 3]) -> Option<f64> {
         let relative: [[f64; 2]; 3] = std::array::from_fn(|axis| {
             [bounds.low[axis] - self.origin[axis], bounds.high[axis] - self.origin[axis]]
@@ -153,7 +154,7 @@ impl ContactTest {
     }
 }
 
-/// Partitions the slots of a node and says how many go left; never none, never all.
+/// Partitions the slots of a node and returns the number that goes left; never none, never all.
 fn split(slots: &mut [usize], bounds: &[Bounds]) -> usize {
     let half = slots.len() / 2;
     let centers = |axis: usize| slots.iter().map(move |&slot| bounds[slot].center(axis));
@@ -198,7 +199,7 @@ fn split(slots: &mut [usize], bounds: &[Bounds]) -> usize {
             return left;
         }
     }
-    // All centres coincide (or the areas are beyond measure): any balanced split will do.
+    // If all centres coincide (or the areas are not finite), any balanced split will do.
     half
 }
 

@@ -9,44 +9,45 @@ use super::t_bound::SeenTriangle;
 const U: f64 = 1.0 / (1_u64 << 24) as f64;
 /// Unit roundoff of double precision.
 const EPSILON: f64 = f64::EPSILON / 2.0;
-/// Largest error of a careful single-precision test, in units of U times the sum of absolute values of what
-/// it adds. Shearing a vertex costs at most 4 (difference, slope, product, difference), the products of an
-/// edge function 2 more; the rest is headroom for tests that shear in another order.
+/// Largest error of a careful single-precision test, in units of U times the sum of absolute values of its
+/// terms. Shearing a vertex costs at most 4 (difference, slope, product, difference), the products of an edge
+/// function 2 more; the rest is headroom for tests that shear in another order.
 const SINGLE_ERROR: f64 = 8.0 * U;
-/// That count of roundings in double precision, doubled.
+/// Error of the same roundings in double precision, doubled.
 const DOUBLE_ERROR: f64 = 16.0 * EPSILON;
-/// A double-precision sum of products is used for t if cancellation costs at most 12 bits.
+/// Least ratio of a double-precision sum of products to its scale at which the sum is used for t:
+/// cancellation then costs at most 12 bits.
 const WELL_CONDITIONED: f64 = 1.0 / 4096.0;
 
-/// A ray that meets a triangle, or passes so near that single precision may report a hit.
+/// Contact of a ray with a triangle that it hits, or passes so near that single precision may report a hit.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Contact {
-    /// Exactly inside the triangle and the range.
+    /// True if the ray is exactly inside the triangle and the range.
     pub hit: bool,
-    /// Single precision must report it as well.
+    /// True if single precision must report the contact as well.
     pub certain: bool,
-    /// The whole interval lies inside the ray's range, and above the bound of its error.
+    /// True if the whole interval lies inside the ray's range, and above the bound of its error.
     pub in_range: bool,
     pub t: f64,
-    /// Interval of what single precision may report.
+    /// Interval of the t that single precision may report.
     pub t_low: f64,
     pub t_high: f64,
-    /// Weights of vertices 1 and 2.
+    /// Barycentric weights of vertices 1 and 2.
     pub barycentrics: [f64; 2],
-    /// Edges (named by the vertex opposite) that the ray passes within rounding.
+    /// Marks of the edges (named by the vertex opposite) that the ray passes within rounding.
     pub touched: [bool; 3],
-    /// Vertices in the plane across the ray, relative to it.
+    /// Positions of the vertices in the plane across the ray, relative to the ray.
     pub seen: [[f64; 2]; 3],
     /// True if the triangle winds counter-clockwise as the ray sees it (in the sheared axes).
     pub facing: bool,
-    /// The side that the ray meets, in exact arithmetic where it hits.
+    /// Side that the ray meets, in exact arithmetic if the ray hits.
     pub side: Side,
-    /// Single precision sees the same side.
+    /// True if single precision sees the same side.
     pub side_is_certain: bool,
 }
 
-/// A ray prepared for many triangles: axes are permuted cyclically so that the direction is longest
-/// along `axis_z`, and sheared so that it runs along that axis only.
+/// Ray prepared for many triangles: axes are permuted cyclically so that the direction is longest along
+/// `axis_z`, and sheared so that it runs along that axis only.
 pub(super) struct ContactTest {
     pub origin: Point,
     pub direction: Point,
@@ -56,14 +57,14 @@ pub(super) struct ContactTest {
     shear: [f64; 2],
 }
 
-/// A vertex relative to the ray.
+/// Vertex relative to the ray.
 #[derive(Clone, Copy)]
 struct Sheared {
     x: f64,
     y: f64,
-    /// t of the plane through the vertex across `axis_z`.
+    /// Ray parameter t of the plane through the vertex across `axis_z`.
     z: f64,
-    /// Sums of absolute values behind x and y.
+    /// Sums of the absolute values of the terms of x and y.
     x_scale: f64,
     y_scale: f64,
 }
@@ -76,7 +77,7 @@ struct EdgeFunction {
 }
 
 impl ContactTest {
-    /// `None` if the ray is not valid or its range is empty.
+    /// Prepares a ray; `None` if the ray is not valid or its range is empty.
     pub fn new(ray: &Ray) -> Option<Self> {
         if !ray.is_valid() || ray.t_min >= ray.t_max {
             return None;
@@ -104,7 +105,7 @@ impl ContactTest {
         })
     }
 
-    /// `None` if neither exact arithmetic nor single precision sees a hit in range.
+    /// Tests a triangle; `None` if neither exact arithmetic nor single precision sees a hit in range.
     pub fn contact(&self, triangle: &[[f32; 3]; 3]) -> Option<Contact> {
         let vertices = triangle.map(|vertex| self.shear(vertex));
         if !surrounds(vertices.map(|v| (v.x, v.x_scale))) || !surrounds(vertices.map(|v| (v.y, v.y_scale))) {
@@ -134,8 +135,7 @@ impl ContactTest {
             sheared: vertices.map(|v| [v.x, v.y]),
             depths: vertices.map(|v| v.z),
         };
-        // A test that mixes the vertices' t with weights that are off by the edges' errors, whatever else it
-        // knows.
+        // The error of any test that mixes the vertices' t with weights that are off by the edges' errors.
         let mixing: f64 =
             (0..3).map(|i| SINGLE_ERROR * edges[i].scale * (vertices[i].z - t).abs()).sum::<f64>()
                 / sum.abs();
@@ -150,12 +150,12 @@ impl ContactTest {
             return None;
         }
         let hit = inside && self.t_min < t && t < self.t_max;
-        // The device answers no hit nearer than its own bound: it could be the surface that the ray starts
-        // on.
+        // The device reports no hit nearer than its own bound, since the hit could be the surface on which
+        // the ray starts.
         let in_range = self.t_min.max(bound) < t_low && t_high < self.t_max;
         let facing = if inside { signs.contains(&1) } else { sum > 0.0 };
         let scale: f64 = edges.iter().map(|edge| edge.scale).sum();
-        // Sheared axes see a triangle from behind where the ray runs towards positive values.
+        // Sheared axes see a triangle from behind if the ray runs towards positive values.
         let counter_clockwise = facing == (self.direction[self.axis_z] < 0.0);
         Some(Contact {
             hit,
@@ -167,7 +167,7 @@ impl ContactTest {
             barycentrics: self.barycentrics(&points, edges, sum, inside),
             touched: [0, 1, 2].map(|opposite: usize| {
                 let ends = [vertices[(opposite + 1) % 3], vertices[(opposite + 2) % 3]];
-                // Near the edge's line, and not before or past its ends.
+                // The ray is near the edge's line, and not before or past its ends.
                 near[opposite]
                     && surrounds(ends.map(|v| (v.x, v.x_scale)))
                     && surrounds(ends.map(|v| (v.y, v.y_scale)))
@@ -179,7 +179,7 @@ impl ContactTest {
         })
     }
 
-    /// `point - from` with the axes in the order in which the direction's longest component comes last.
+    /// Returns `point - from` with permuted axes, such that the direction's longest component comes last.
     fn along_axis(&self, point: Point, from: Point) -> Point {
         [1, 2, 3].map(|step| {
             let axis = (self.axis_z + step) % 3;
@@ -199,8 +199,8 @@ impl ContactTest {
         }
     }
 
-    /// Sign of the exact edge determinant over the direction's longest component, which is what the
-    /// edge function of the sheared vertices rounds.
+    /// Returns the sign of the exact edge determinant over the direction's longest component, which is the
+    /// exact value of the edge function of the sheared vertices.
     fn exact_sign(&self, opposite: usize, points: &[Point; 3], edge: EdgeFunction) -> i32 {
         let value = if edge.value.abs() > DOUBLE_ERROR * edge.scale {
             edge.value
@@ -216,10 +216,10 @@ impl ContactTest {
         determinant * self.direction[self.axis_z].signum()
     }
 
-    /// t of the triangle's plane; relative error below 2^-38.
+    /// Returns the t of the triangle's plane; relative error below 2^-38.
     fn plane_t(&self, points: &[Point; 3]) -> f64 {
         let [(offset, offset_scale), (along, along_scale)] = self.plane(points);
-        // Each of these rounds at most seven times: 7 * 2^-53 * 4096 < 2^-38.
+        // Each of these values rounds at most seven times: 7 * 2^-53 * 4096 < 2^-38.
         let offset = if offset.abs() >= WELL_CONDITIONED * offset_scale {
             offset
         } else {
@@ -238,8 +238,8 @@ impl ContactTest {
         offset / along
     }
 
-    /// Distance of the plane and slope of the ray, both times the normal's length, each with the sum of
-    /// the absolute values that went into it.
+    /// Returns the distance of the plane and the slope of the ray, both times the normal's length, each with
+    /// the sum of the absolute values of its terms.
     fn plane(&self, [a, b, c]: &[Point; 3]) -> [(f64, f64); 2] {
         let difference = |p: &Point, q: &Point| -> Point { std::array::from_fn(|axis| p[axis] - q[axis]) };
         let (first, second, relative) = (difference(b, a), difference(c, a), difference(a, &self.origin));
@@ -289,7 +289,7 @@ impl EdgeFunction {
     }
 }
 
-/// True if zero lies between the least and the greatest coordinate, give or take their rounding.
+/// True if zero lies between the least and the greatest coordinate, within their rounding.
 fn surrounds<const N: usize>(coordinates: [(f64, f64); N]) -> bool {
     coordinates.iter().any(|(x, scale)| *x <= SINGLE_ERROR * scale)
         && coordinates.iter().any(|(x, scale)| *x >= -SINGLE_ERROR * scale)

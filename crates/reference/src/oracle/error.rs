@@ -1,8 +1,8 @@
-/// Why an oracle cannot be made.
+/// Error of making an oracle.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum OracleError {
-    /// Indices come in threes.
+    /// The number of indices is no multiple of three.
     #[error("{indices} indices are no multiple of three; pass three indices for each triangle")]
     IncompleteTriangle {
         /// Number of indices given.
@@ -15,12 +15,12 @@ pub enum OracleError {
     IndexOutOfRange {
         /// Running index of the triangle.
         primitive: usize,
-        /// The index.
+        /// Value of the index.
         index: u32,
         /// Number of positions.
         positions: usize,
     },
-    /// Ids are 32 bits wide and the last one means "none".
+    /// There are more triangles than ids: ids are 32 bits wide and the last one means "none".
     #[error("{triangles} triangles do not fit 32-bit ids; split the scene")]
     TooManyTriangles {
         /// Number of triangles given.

@@ -1,19 +1,19 @@
 //! Determinants of single-precision numbers without rounding.
 //!
-//! A product of two `f32` has at most 48 significant bits and an exponent far inside the range of
-//! `f64`, so it is an `f64` exactly. A product of three is then a rounded product plus its error,
-//! and that error is an `f64` too: its lowest bit is at least 2^-447. A determinant of three points is
-//! a sum of such pairs, and differences of points are multiplied out instead of being rounded. The sum
-//! is kept as an expansion (Shewchuk 1997): components that do not overlap, in ascending order, so
-//! the last nonzero one has the sign of the whole.
+//! A product of two `f32` has at most 48 significant bits and an exponent far inside the range of `f64`, so
+//! it is an `f64` exactly. A product of three is then a rounded product plus its error, and that error is an
+//! `f64` too: its lowest bit is at least 2^-447. A determinant of three points is a sum of such pairs, and
+//! differences of points are multiplied out instead of being rounded. The sum is kept as an expansion
+//! (Shewchuk 1997): components that do not overlap, in ascending order, so the last nonzero one has the sign
+//! of the whole.
 
-/// A point or direction whose coordinates came from `f32`.
+/// Point or direction whose coordinates came from `f32`.
 pub type Point = [f64; 3];
 
-/// Terms of the largest determinant here: four of six products with two components each.
+/// Number of terms of the largest determinant of this module: four of six products with two components each.
 const CAPACITY: usize = 48;
 
-/// A sum of `f64` without rounding.
+/// Sum of `f64` numbers without rounding.
 #[derive(Clone, Copy)]
 struct Expansion {
     components: [f64; CAPACITY],
@@ -60,13 +60,13 @@ impl Expansion {
         self.add(product);
     }
 
-    /// The value, rounded with a relative error of a few units in the last place.
+    /// Returns the value, rounded with a relative error of a few units in the last place.
     fn value(&self) -> f64 {
         self.components[..self.length].iter().sum()
     }
 }
 
-/// `a + b` as its rounded sum and the exact rest.
+/// Returns `a + b` as its rounded sum and the exact rest.
 fn two_sum(a: f64, b: f64) -> (f64, f64) {
     let sum = a + b;
     let b_part = sum - a;
@@ -74,8 +74,8 @@ fn two_sum(a: f64, b: f64) -> (f64, f64) {
     (sum, (a - a_part) + (b - b_part))
 }
 
-/// det(direction, a - origin, b - origin): positive, zero or negative as the exact value, and within
-/// a few units in the last place of it. All numbers must be `f32` values.
+/// Returns det(direction, a - origin, b - origin): positive, zero or negative like the exact value, and
+/// within a few units in the last place of it. All numbers must be `f32` values.
 pub fn edge_determinant(direction: Point, origin: Point, a: Point, b: Point) -> f64 {
     let mut sum = Expansion::zero();
     sum.add_determinant(1.0, direction, a, b);
@@ -84,7 +84,8 @@ pub fn edge_determinant(direction: Point, origin: Point, a: Point, b: Point) -> 
     sum.value()
 }
 
-/// Dot product of the direction with the triangle's normal (b - a) x (c - a), as [`edge_determinant`].
+/// Returns the dot product of the direction with the triangle's normal (b - a) x (c - a), as exact as
+/// [`edge_determinant`].
 pub fn normal_along(direction: Point, [a, b, c]: [Point; 3]) -> f64 {
     let mut sum = Expansion::zero();
     sum.add_determinant(1.0, direction, a, b);
@@ -93,8 +94,8 @@ pub fn normal_along(direction: Point, [a, b, c]: [Point; 3]) -> f64 {
     sum.value()
 }
 
-/// det(a - origin, b - origin, c - origin), as [`edge_determinant`]: the dot product of a - origin
-/// with the triangle's normal.
+/// Returns det(a - origin, b - origin, c - origin), as exact as [`edge_determinant`]: the dot product of a -
+/// origin with the triangle's normal.
 pub fn plane_offset(origin: Point, [a, b, c]: [Point; 3]) -> f64 {
     let mut sum = Expansion::zero();
     sum.add_determinant(1.0, a, b, c);
@@ -114,7 +115,7 @@ mod tests {
 
     #[test]
     fn the_sign_survives_where_double_precision_loses_it() {
-        // A point off the line through origin and a by one unit in the last place of a huge offset.
+        // The point is off the line through origin and a by one unit in the last place of a huge offset.
         let tiny = f32::from_bits(1);
         let direction = widen([1.0, 1.0, 0.0]);
         let origin = widen([1e18, 1e18, 0.0]);

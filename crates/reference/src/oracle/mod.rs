@@ -1,13 +1,13 @@
-//! The triangle that a ray truly hits: decided exactly on the single-precision data that the device got.
+//! Oracle of true hits: decided exactly on the single-precision data that the device got.
 //!
-//! A ray is inside a triangle iff no two of its three edge determinants have strictly different
-//! signs (edges and vertices count as inside); if all three are zero the ray lies in the triangle's
-//! plane and does not hit it. Signs are exact, see [`exact`]. `t` is the plane's, in double precision.
-//! Triangles without area are therefore never hit, and a closed mesh has no gaps.
+//! A ray is inside a triangle if and only if no two of its three edge determinants have strictly different
+//! signs (edges and vertices count as inside); if all three are zero the ray lies in the triangle's plane and
+//! does not hit it. Signs are exact, see [`exact`]. `t` is the plane's, in double precision. Triangles
+//! without area are therefore never hit, and a closed mesh has no gaps.
 //!
-//! Single precision cannot be blamed for rays that it cannot tell apart. Every triangle therefore
-//! carries the interval that a careful single-precision test may report, and a ray for which more
-//! than one answer fits is *ambiguous*: its [`Verdict`] lists the admissible answers.
+//! Single precision cannot be blamed for rays that it cannot tell apart. Every triangle therefore carries the
+//! interval of t that a careful single-precision test may report, and a ray for which more than one answer
+//! fits is *ambiguous*: its [`Verdict`] lists the admissible answers.
 
 mod bvh;
 mod contact;
@@ -32,18 +32,18 @@ use contact::{Contact, ContactTest};
 use rayon::prelude::*;
 use verdict::NO_RANGE;
 
-/// Coordinates beyond this magnitude have squares that single precision cannot hold; triangles that
-/// use them are dropped, as loaders must do too. Metres.
+/// Largest magnitude of a usable coordinate, metres: the square of a larger one exceeds single precision.
+/// Triangles with larger coordinates are dropped, as loaders must do too.
 pub const COORDINATE_LIMIT: f32 = 1.8e18;
 
-/// Up to this many triangles are tested one by one; more get a hierarchy.
+/// Largest number of triangles that are tested one by one; more triangles get a hierarchy.
 const BRUTE_FORCE_LIMIT: usize = 64;
 
-/// Decides whether a crossing of an alpha-masked triangle counts: `(primitive, [weight of vertex 1,
+/// Function that decides if a crossing of an alpha-masked triangle counts: `(primitive, [weight of vertex 1,
 /// weight of vertex 2])` to `true` for a hit. Called from several threads.
 pub type Accept<'a> = &'a (dyn Fn(u32, [f64; 2]) -> bool + Sync);
 
-/// A side of a triangle: that from which its corners are seen in this order.
+/// Side of a triangle: the one from which its corners are seen in this order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Side {
     /// Counter-clockwise.
@@ -52,13 +52,13 @@ pub enum Side {
     Clockwise,
 }
 
-/// The triangles of a scene, ready to be asked. Primitive ids are running triangle indices.
+/// Triangles of a scene, ready for rays. Primitive ids are running triangle indices.
 pub struct Oracle<'a> {
     triangles: Vec<[[f32; 3]; 3]>,
     primitives: Vec<u32>,
     bvh: Option<Bvh>,
     accept: Option<Accept<'a>>,
-    /// The back of each triangle that has one, by slot; empty where none has.
+    /// Back of each triangle that has one, by slot; empty if none has one.
     backs: Vec<Option<Side>>,
     dropped: usize,
     collapsed: usize,
@@ -76,14 +76,14 @@ impl std::fmt::Debug for Oracle<'_> {
 }
 
 impl<'a> Oracle<'a> {
-    /// Takes posed positions (metres, as uploaded) and three indices a triangle.
+    /// Takes posed positions (metres, as uploaded) and three indices per triangle.
     ///
-    /// Triangles with a coordinate that is not finite or beyond [`COORDINATE_LIMIT`] are never hit;
-    /// they are counted in [`Oracle::dropped`], and the ids of others do not change. `accept` is the alpha
-    /// test; `None` accepts everything.
+    /// Triangles with a coordinate that is not finite or beyond [`COORDINATE_LIMIT`] are never hit; they are
+    /// counted in [`Oracle::dropped`], and the ids of others do not change. `accept` is the alpha test;
+    /// `None` accepts everything.
     ///
     /// # Errors
-    /// If the number of indices is no multiple of three, an index has no position, or there are more
+    /// An error if the number of indices is no multiple of three, an index has no position, or there are more
     /// than `u32::MAX - 1` triangles.
     pub fn new(
         positions: &[[f32; 3]],
@@ -93,10 +93,10 @@ impl<'a> Oracle<'a> {
         Self::with_search(positions, indices, accept, Search::Automatic)
     }
 
-    /// As [`Oracle::new`], but every triangle is tested for every ray: the check of the hierarchy.
+    /// Makes an oracle like [`Oracle::new`] that tests every triangle for every ray, to check the hierarchy.
     ///
     /// # Errors
-    /// As [`Oracle::new`].
+    /// Errors of [`Oracle::new`].
     pub fn brute_force(
         positions: &[[f32; 3]],
         indices: &[u32],
@@ -135,7 +135,7 @@ impl<'a> Oracle<'a> {
             if !triangle.iter().flatten().all(|x| x.abs() <= COORDINATE_LIMIT) {
                 dropped += 1;
             } else if a == b || b == c || c == a {
-                // However a test rounds, equal vertices round equally: the area stays zero.
+                // Any test rounds equal vertices equally, so the area stays zero.
                 collapsed += 1;
             } else {
                 triangles.push(triangle);
@@ -150,8 +150,8 @@ impl<'a> Oracle<'a> {
         Ok(Self { triangles, primitives, bvh, accept, backs: Vec::new(), dropped, collapsed })
     }
 
-    /// With triangles that have a back, which rays that cull back faces pass. `back_of` says which side it is
-    /// by the id of the triangle; `None` where both sides are there for every ray.
+    /// Adds backs to triangles, through which rays that cull back faces pass. `back_of` returns the back by
+    /// the id of the triangle; `None` if every ray hits both sides.
     #[must_use]
     pub fn with_backs(self, back_of: impl Fn(u32) -> Option<Side>) -> Self {
         let backs: Vec<_> = self.primitives.iter().map(|&primitive| back_of(primitive)).collect();
@@ -159,23 +159,23 @@ impl<'a> Oracle<'a> {
         Self { backs, ..self }
     }
 
-    /// Triangles that rays are tested against: those neither dropped nor collapsed.
+    /// Returns the number of triangles that rays are tested against: those neither dropped nor collapsed.
     pub fn triangle_count(&self) -> usize {
         self.triangles.len()
     }
 
-    /// Triangles left out because a coordinate is not finite or too large.
+    /// Returns the number of triangles left out because a coordinate is not finite or too large.
     pub fn dropped(&self) -> usize {
         self.dropped
     }
 
-    /// Triangles left out because two of their vertices are the same.
+    /// Returns the number of triangles left out because two of their vertices are equal.
     pub fn collapsed(&self) -> usize {
         self.collapsed
     }
 
-    /// The nearest hit of a ray with `t_min < t < t_max`. Hits at equal t go to the lowest id.
-    /// A ray that is not valid ([`Ray::is_valid`]) hits nothing.
+    /// Returns the nearest hit of a ray with `t_min < t < t_max`. Hits at equal t go to the lowest id. A ray
+    /// that is not valid ([`Ray::is_valid`]) hits nothing.
     pub fn closest(&self, ray: &Ray) -> Verdict {
         let Some(test) = ContactTest::new(ray) else { return Verdict::miss() };
         let mut found = Found { contacts: Vec::new(), cutoff: f64::INFINITY };
@@ -192,20 +192,20 @@ impl<'a> Oracle<'a> {
         self.evaluate(&found.contacts)
     }
 
-    /// [`Oracle::closest`] of many rays on all threads, in the order of the rays.
+    /// Returns [`Oracle::closest`] of many rays, computed on all threads, in the order of the rays.
     pub fn closest_batch(&self, rays: &[Ray]) -> Vec<Verdict> {
         rays.par_iter().map(|ray| self.closest(ray)).collect()
     }
 
-    /// Says whether anything is hit with `t_min < t < t_max`.
+    /// Tests if anything is hit with `t_min < t < t_max`.
     pub fn occluded(&self, ray: &Ray) -> Occlusion {
         let verdict = self.closest(ray);
         let occluded = matches!(verdict.outcome, Outcome::Hit { .. });
-        // A certain hit anywhere in range settles the question, however unsure the nearest one is.
+        // A certain hit anywhere in range settles the question, however unsure the nearest hit is.
         Occlusion { occluded, ambiguous: verdict.ambiguous && verdict.miss_allowed }
     }
 
-    /// [`Oracle::occluded`] of many rays on all threads, in the order of the rays.
+    /// Returns [`Oracle::occluded`] of many rays, computed on all threads, in the order of the rays.
     pub fn occluded_batch(&self, rays: &[Ray]) -> Vec<Occlusion> {
         rays.par_iter().map(|ray| self.occluded(ray)).collect()
     }
@@ -223,15 +223,15 @@ impl<'a> Oracle<'a> {
         if self.accept.is_some_and(|accept| !accept(primitive, contact.barycentrics)) {
             return;
         }
-        // Nothing behind a certain hit can be an answer. Hits that single precision may miss stop nothing.
+        // Hits behind a certain hit cannot be answers. Hits that single precision may miss stop nothing.
         if contact.certain {
             found.cutoff = found.cutoff.min(contact.t_high);
         }
         found.contacts.push((slot, contact));
     }
 
-    /// The contact as it counts for a ray that passes backs: none with a back that single precision sees as
-    /// well. Where rounding decides the side, the triangle may be reported, and promises nothing.
+    /// Returns the contact as it counts for a ray that passes backs: `None` for a back that single precision
+    /// sees as well. If rounding decides the side, the triangle may be reported, but need not be.
     fn met(&self, ray: &Ray, slot: usize, contact: Contact) -> Option<Contact> {
         let back = self.backs.get(slot).copied().flatten().filter(|_| ray.culls_back_faces);
         let Some(back) = back else { return Some(contact) };
@@ -246,14 +246,14 @@ impl<'a> Oracle<'a> {
         }
     }
 
-    /// `contacts` are sorted by primitive.
+    /// Computes the verdict; `contacts` are sorted by primitive.
     fn evaluate(&self, contacts: &[(usize, Contact)]) -> Verdict {
         if contacts.is_empty() {
             return Verdict::miss();
         }
         let hits = || contacts.iter().filter(|(_, contact)| contact.hit);
         let nearest_t = hits().map(|(_, contact)| contact.t).fold(f64::INFINITY, f64::min);
-        // Two planes that intersect in the ray's own point give t with a relative error below 2^-38 each.
+        // Two planes that intersect in a point of the ray give t with a relative error below 2^-38 each.
         let tie = nearest_t + nearest_t.abs() * 2.0_f64.powi(-36);
         let (outcome, t_range) = match hits().find(|(_, contact)| contact.t <= tie) {
             Some((slot, contact)) => {
@@ -292,6 +292,6 @@ enum Search {
 
 struct Found {
     contacts: Vec<(usize, Contact)>,
-    /// No answer lies beyond this t.
+    /// Largest t at which an answer can lie.
     cutoff: f64,
 }

@@ -1,22 +1,24 @@
-/// A ray as the device gets it. Points on it are `origin + t * direction`.
+/// Ray as the device gets it. Points on it are `origin + t * direction`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ray {
-    /// Metres.
+    /// Origin, metres.
     pub origin: [f32; 3],
-    /// Hits count for `t > t_min`.
+    /// Lower end of the range: hits count for `t > t_min`.
     pub t_min: f32,
-    /// Need not be unit; finite and not zero.
+    /// Direction; it need not be unit, but must be finite and not zero.
     pub direction: [f32; 3],
-    /// Hits count for `t < t_max`, in units of the direction's length; may be infinite.
+    /// Upper end of the range: hits count for `t < t_max`, in units of the direction's length; may be
+    /// infinite.
     pub t_max: f32,
-    /// A triangle that is never hit.
+    /// Id of a triangle that is never hit.
     pub exclude_primitive: Option<u32>,
-    /// Backs are no hits: of the triangles that have one ([`Oracle::with_backs`](super::Oracle::with_backs)).
+    /// True if backs are no hits, on triangles that have one
+    /// ([`Oracle::with_backs`](super::Oracle::with_backs)).
     pub culls_back_faces: bool,
 }
 
 impl Ray {
-    /// A ray that counts hits from its origin to infinity.
+    /// Makes a ray that counts hits from its origin to infinity.
     pub fn new(origin: [f32; 3], direction: [f32; 3]) -> Self {
         Self {
             origin,
@@ -28,7 +30,7 @@ impl Ray {
         }
     }
 
-    /// A ray through `point` at t = 1, up to the rounding of `point - origin`.
+    /// Makes a ray through `point` at t = 1, up to the rounding of `point - origin`.
     pub fn towards(origin: [f32; 3], point: [f32; 3]) -> Self {
         Self::new(origin, std::array::from_fn(|axis| point[axis] - origin[axis]))
     }

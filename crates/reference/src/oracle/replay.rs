@@ -1,4 +1,4 @@
-//! Everything the oracle does for one ray, in words.
+//! Protocol of the oracle's work on one ray, in words.
 
 use std::fmt;
 
@@ -19,11 +19,11 @@ pub enum TestClass {
     OutOfRange,
     /// The ray lies in the triangle's plane: no hit, though single precision may report one.
     InPlane,
-    /// Behind a certain hit.
+    /// A triangle behind a certain hit.
     Behind,
-    /// Excluded by the ray.
+    /// A triangle that the ray excludes.
     Excluded,
-    /// Refused by the alpha test.
+    /// A point that the alpha test refused.
     Transparent,
     /// A back that the ray passes.
     BackFace,
@@ -31,49 +31,50 @@ pub enum TestClass {
     Outside,
 }
 
-/// One triangle that the oracle tested.
+/// Triangle that the oracle tested.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TestedTriangle {
     /// Running index of the triangle.
     pub primitive: u32,
-    /// Signs of the exact edge determinants, each edge named by the vertex opposite; inside where no two
-    /// differ strictly.
+    /// Signs of the exact edge determinants, each edge named by the vertex opposite; the ray is inside if no
+    /// two signs differ strictly.
     pub signs: [i32; 3],
-    /// Its relation to the ray.
+    /// Relation of the triangle to the ray.
     pub class: TestClass,
-    /// t of the plane, and the interval that single precision may report; `None` where the ray passes outside
-    /// of by more than rounding.
+    /// Ray parameter t of the plane, and the interval that single precision may report; `None` if the ray
+    /// passes outside by more than rounding.
     pub t: Option<[f64; 3]>,
 }
 
-/// A node of the hierarchy that the ray entered.
+/// Node of the hierarchy that the ray entered.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct VisitedNode {
     /// Number of the node, the root being 0.
     pub node: usize,
-    /// Lower bound of every t in it.
+    /// Lower bound of every t in the node.
     pub t: f64,
-    /// Triangles of a leaf; 0 for an inner node.
+    /// Number of triangles of a leaf; 0 for an inner node.
     pub triangles: usize,
 }
 
 /// Steps of [`Oracle::closest`] for one ray.
 #[derive(Clone, Debug)]
 pub struct OracleReplay {
-    /// The ray.
+    /// Ray that was traced.
     pub ray: Ray,
-    /// Nodes in the order of visits; empty where all triangles are tested one by one.
+    /// Nodes in the order of visits; empty if all triangles are tested one by one.
     pub nodes: Vec<VisitedNode>,
-    /// Triangles in the order of tests, those that the ray passes outside of are left out.
+    /// Triangles in the order of tests, without those that the ray passes outside.
     pub tests: Vec<TestedTriangle>,
-    /// Triangles tested that the ray passes outside of by more than rounding.
+    /// Number of tested triangles that the ray passes outside by more than rounding.
     pub outside: usize,
-    /// The answer.
+    /// Answer of the oracle.
     pub verdict: Verdict,
 }
 
 impl Oracle<'_> {
-    /// [`Oracle::closest`] of one ray with everything it looked at. The signs are computed without a filter.
+    /// Computes [`Oracle::closest`] of one ray with a protocol of its steps. The signs are computed without a
+    /// filter.
     pub fn replay(&self, ray: &Ray) -> OracleReplay {
         let verdict = self.closest(ray);
         let mut replay =
@@ -142,7 +143,7 @@ impl Oracle<'_> {
     }
 }
 
-/// Signs of the three edge determinants of a triangle, each without rounding.
+/// Returns the signs of the three edge determinants of a triangle, each without rounding.
 fn exact_signs(test: &ContactTest, triangle: &[[f32; 3]; 3]) -> [i32; 3] {
     let points: [Point; 3] = triangle.map(|vertex| vertex.map(f64::from));
     [0, 1, 2].map(|opposite: usize| {
@@ -171,7 +172,7 @@ impl fmt::Display for TestClass {
 }
 
 impl fmt::Display for TestedTriangle {
-    /// One line.
+    /// Writes one line.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let sign = |value: i32| match value {
             1 => '+',
@@ -188,7 +189,7 @@ impl fmt::Display for TestedTriangle {
 }
 
 impl fmt::Display for OracleReplay {
-    /// Nodes, tested triangles, the answer; one line each.
+    /// Writes nodes, tested triangles and the answer; one line each.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(f, "oracle: {} nodes, {} triangles passed outside", self.nodes.len(), self.outside)?;
         for VisitedNode { node, t, triangles } in &self.nodes {

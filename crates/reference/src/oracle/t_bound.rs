@@ -1,41 +1,42 @@
-//! Upper bounds of the error of the device's test in t, and of the bound of that error which it computes
-//! itself.
+//! Upper bounds of the error of t in the device's test, and of the bound of that error which the test
+//! computes itself.
 //!
 //! The device's test (`shaders-glsl/ads/triangle.glsl`) takes t from the plane of a triangle or from a mix of
-//! its corners, whichever has the smaller bound of its error, and answers a hit only where t exceeds that
-//! bound, so that a ray which starts on a surface does not hit the surface by rounding alone. What is here
-//! bounds *the bound that it computes*: the same sums in double precision, each constant raised by what
-//! rounding may add to it. It therefore holds for the error of the device's t too. A hit is certain only if
-//! it lies above this bound by as much.
+//! its corners, whichever has the smaller error bound, and reports a hit only if t exceeds that bound, so
+//! that a ray which starts on a surface does not hit the surface by rounding alone. This module bounds *the
+//! bound that the test computes*: the same sums in double precision, each constant raised by the possible
+//! effect of rounding. The result therefore also holds for the error of the device's t. A hit is certain only
+//! if it lies above this bound by as much.
 
 use super::exact::Point;
 
 /// Unit roundoff of single precision.
 const U: f64 = 1.0 / (1_u64 << 24) as f64;
-/// Sums of positive products that single precision computes exceed those computed here by less than this
-/// factor.
+/// Bound of the factor by which sums of positive products in single precision may exceed the sums computed
+/// here.
 const SUMS: f64 = 1.0 + 64.0 * U;
-/// Above half of this the device trusts no divisor (`TRIANGLE_LARGEST_DIVISOR`).
+/// Largest divisor (`TRIANGLE_LARGEST_DIVISOR`); the device trusts no divisor above half of this.
 const LARGEST_DIVISOR: f64 = 8.0e37;
-/// Twice the smallest sum of products, per unit of the vector they are taken with, that underflow cannot have
-/// spoilt.
+/// Twice the smallest sum of products, per unit of the vector that they are taken with, that underflow cannot
+/// have spoilt.
 const TINY: f64 = 2.0e-30;
 
-/// The corners of a triangle as a ray sees them, all relative to the ray's origin with its longest direction
-/// last.
+/// Corners of a triangle as a ray sees them, all relative to the ray's origin, with the axis of its longest
+/// direction last.
 pub(super) struct SeenTriangle {
     /// Corners, metres.
     pub corners: [Point; 3],
-    /// The direction; its third component is the longest.
+    /// Direction of the ray; its third component is the longest.
     pub direction: Point,
-    /// Corners sheared along the ray: x and y where it passes at (0, 0).
+    /// Corners sheared along the ray: x and y, where the ray passes at (0, 0).
     pub sheared: [[f64; 2]; 3],
-    /// t of the planes across the longest direction through the corners.
+    /// Ray parameters t of the planes across the longest direction through the corners.
     pub depths: [f64; 3],
 }
 
 impl SeenTriangle {
-    /// Bound of the error of t, and of the bound that the device computes; infinite where rounding decides.
+    /// Returns the bound of the error of t, and of the bound that the device computes; infinite if rounding
+    /// decides.
     pub fn t_bound(&self, t: f64) -> f64 {
         let (nearest, farthest) = (min(self.depths), max(self.depths));
         let max_depth = nearest.abs().max(farthest.abs());
@@ -45,8 +46,9 @@ impl SeenTriangle {
         if bound.is_nan() { f64::INFINITY } else { bound }
     }
 
-    /// As `triangle_plane_t`. Its slope is off by up to 12 u of `facing_reach`, and is trusted less by as
-    /// much; the quotient that it bounds by may itself be off by the bound, which takes another 12 u.
+    /// Bounds the error of a t that is taken from the plane, like `triangle_plane_t`. Its slope is off by up
+    /// to 12 u of `facing_reach`, and is trusted less by as much; the quotient that the device bounds by may
+    /// itself be off by the bound, which takes another 12 u.
     fn plane(&self, t: f64) -> f64 {
         let [a, b, c] = &self.corners;
         let difference = |p: &Point, q: &Point| -> Point { std::array::from_fn(|axis| p[axis] - q[axis]) };
@@ -72,9 +74,10 @@ impl SeenTriangle {
         (12.0 * U * (height_reach + t.abs() * facing_reach) / certain + 9.0 * U * t.abs()) * SUMS
     }
 
-    /// As `triangle_mixing_error`. Sheared corners are off by `dx` and `dy`, edges by `delta`: the device's
-    /// own determinant is less than this one by up to the sum of them, it takes that sum off again, and the t
-    /// that it compares depths with is off by the bound, which takes it a third time.
+    /// Bounds the error of a t that is mixed from the corners, like `triangle_mixing_error`. Sheared corners
+    /// are off by `dx` and `dy`, edges by `delta`: the device's own determinant is less than this one by up
+    /// to the sum of them, the device subtracts that sum again, and the t with which it compares depths is
+    /// off by the bound, which subtracts the sum a third time.
     fn mixing(&self, t: f64, max_depth: f64) -> f64 {
         let [dx, dy, dz] = self.direction;
         let slopes = [(dx / dz).abs(), (dy / dz).abs()];

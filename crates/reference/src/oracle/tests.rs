@@ -1,10 +1,10 @@
-//! Verdicts of the oracle on single rays and meshes; that closed ones do not leak is in `watertight`.
+//! Verdicts of the oracle on single rays and meshes; `watertight` tests that closed ones do not leak.
 
 use super::*;
 
 mod watertight;
 
-/// SplitMix64.
+/// SplitMix64 generator.
 struct Random(u64);
 
 impl Random {
@@ -82,7 +82,7 @@ fn midpoint(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
     std::array::from_fn(|axis| (0.5 * (f64::from(a[axis]) + f64::from(b[axis]))) as f32)
 }
 
-/// From every direction the side that the ray meets is the one that its exact angle with the normal says.
+/// From every direction, the ray meets the side that the exact sign of its angle with the normal gives.
 #[test]
 fn a_back_is_passed_from_behind_alone() {
     let mut random = Random(17);
@@ -112,7 +112,7 @@ fn a_back_is_passed_from_behind_alone() {
     assert!(passed > 1900, "{passed}");
 }
 
-/// Where rounding may turn a triangle that is seen edge-on, it may be reported, and promises nothing.
+/// If rounding may turn a triangle that is seen edge-on, the triangle may be reported, but need not be.
 #[test]
 fn a_side_that_rounding_decides_is_left_open() {
     let edge_on = [[-1.0, 1.0, 2.0], [1.0, 1.0 + f32::EPSILON, 2.0], [0.0, 2.6, 6.0]];
@@ -165,8 +165,8 @@ fn a_ray_in_a_triangles_plane_passes_it() {
     assert!(verdict.candidates.iter().any(|candidate| candidate.primitive == 12 && !candidate.certain));
 }
 
-/// Whole numbers that single precision holds: t is a quotient of two integers. Every second ray nearly lies
-/// in the plane, where double precision alone is not enough.
+/// Coordinates are whole numbers that single precision holds, so t is a quotient of two integers. Every
+/// second ray nearly lies in the plane, where plain double precision is not enough.
 #[test]
 fn t_is_that_of_exact_arithmetic() {
     const BOUND: f64 = 1.0 / (1_u64 << 38) as f64;
@@ -214,7 +214,7 @@ fn t_is_that_of_exact_arithmetic() {
         worst_of_doubles = worst_of_doubles.max((doubles / exact - 1.0).abs());
     }
     assert!(hits > 10_000, "{hits} hits");
-    // The comparison would notice.
+    // The comparison would notice plain double precision.
     assert!(worst_of_doubles > BOUND, "{worst_of_doubles}");
 }
 
@@ -344,7 +344,7 @@ fn silhouettes_allow_a_miss_and_shared_edges_do_not() {
         (vec![left], true),
         (vec![left, right], false),
         (vec![left, fold], true),
-        // Three triangles at one edge do not cancel; nothing is promised there.
+        // Three triangles at one edge do not cancel; nothing is guaranteed there.
         (vec![left, fold, right], true),
         (vec![left, left, right, right], false),
     ] {
@@ -395,8 +395,8 @@ fn bad_input_is_refused_or_dropped() {
 
 #[test]
 fn a_hit_nearer_than_the_devices_bound_may_be_missed() {
-    // The device bounds the error of this t by 1.1e-8 m and takes the hit for the surface that the ray starts
-    // on.
+    // The device bounds the error of this t by 1.1e-8 m and takes the hit for the surface on which the ray
+    // starts.
     let triangle = [
         [-0.246_709_5, -0.341_158_4, -0.676_100_1],
         [-0.234_160_1, -0.349_085, -0.668_141_3],

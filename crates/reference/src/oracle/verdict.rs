@@ -5,17 +5,17 @@ pub enum Outcome {
     Hit {
         /// Running index of the triangle.
         primitive: u32,
-        /// In units of the direction's length; relative error below 2^-38.
+        /// Ray parameter in units of the direction's length; relative error below 2^-38.
         t: f64,
-        /// Weights of vertices 1 and 2.
+        /// Barycentric weights of vertices 1 and 2.
         barycentrics: [f64; 2],
     },
-    /// Nothing in range.
+    /// No hit in range.
     Miss,
 }
 
 impl Outcome {
-    /// The triangle and t of a hit.
+    /// Returns the triangle and t of a hit.
     pub fn hit(&self) -> Option<(u32, f64)> {
         match *self {
             Self::Hit { primitive, t, .. } => Some((primitive, t)),
@@ -24,7 +24,7 @@ impl Outcome {
     }
 }
 
-/// A triangle that a careful single-precision test may report for an ambiguous ray.
+/// Triangle that a careful single-precision test may report for an ambiguous ray.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Candidate {
     /// Running index of the triangle.
@@ -37,26 +37,26 @@ pub struct Candidate {
     pub certain: bool,
 }
 
-/// The answer for one ray.
+/// Answer for one ray.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Verdict {
-    /// In exact arithmetic.
+    /// Hit or miss in exact arithmetic.
     pub outcome: Outcome,
-    /// Interval of the t that a careful single-precision test may report for the triangle of the
-    /// outcome; empty (`[inf, -inf]`) for a miss.
+    /// Interval of the t that a careful single-precision test may report for the triangle of the outcome;
+    /// empty (`[inf, -inf]`) for a miss.
     pub t_range: [f64; 2],
-    /// Single precision may give another answer: the ray passes within rounding of an edge that
-    /// matters, two hits are within rounding of each other, or a hit is within rounding of the end
-    /// of the range.
+    /// True if single precision may give another answer: the ray passes within rounding of an edge that
+    /// matters, two hits are within rounding of each other, or a hit is within rounding of the end of the
+    /// range.
     pub ambiguous: bool,
-    /// A miss is admissible. For ambiguous rays false if some hit is certain, or if the
+    /// True if a miss is admissible. For ambiguous rays it is false if some hit is certain, or if the
     /// candidates share edges all around the ray, so that a watertight test finds one.
     pub miss_allowed: bool,
-    /// Only for ambiguous rays: the admissible triangles by ascending id.
+    /// Admissible triangles by ascending id, for ambiguous rays only.
     pub candidates: Vec<Candidate>,
 }
 
-/// Holds no t.
+/// Empty interval, which holds no t.
 pub(super) const NO_RANGE: [f64; 2] = [f64::INFINITY, f64::NEG_INFINITY];
 
 impl Verdict {
@@ -94,11 +94,11 @@ impl rasray_metrics::Truth for Verdict {
     }
 }
 
-/// The answer to "is anything hit".
+/// Answer of an occlusion test.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Occlusion {
-    /// In exact arithmetic.
+    /// True if anything is hit, in exact arithmetic.
     pub occluded: bool,
-    /// Single precision may give the other answer.
+    /// True if single precision may give the other answer.
     pub ambiguous: bool,
 }

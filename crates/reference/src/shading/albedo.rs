@@ -1,9 +1,9 @@
-//! Share of light that a rough surface of facets sends back in one scattering, as polynomials fitted to the
-//! integrals, and what becomes of the rest after more than one. After Kulla and Conty 2017.
+//! Share of light that a rough surface of facets reflects in one scattering, as polynomials fitted to the
+//! integrals, and the share of the rest that returns after several scatterings. After Kulla and Conty 2017.
 
 use glam::{Vec3, Vec4};
 
-/// Below this alpha the loss is left out.
+/// Alpha below which the loss is left out.
 pub const LOSSLESS_ALPHA: f32 = 0.01;
 /// Mean of (1 - x)^5 over the hemisphere, weighted by the cosine x.
 pub const SCHLICK_MEAN: f32 = 1.0 / 21.0;
@@ -28,7 +28,7 @@ const SCHLICK: [(f32, [f32; 4]); 5] = [
     (-18.15, [60.1864, -86.1476, 58.8347, -15.6502]),
 ];
 
-/// Share of the light lost by facets that absorb nothing, seen under `cosine`.
+/// Returns the share of the light lost by facets that absorb nothing, seen under `cosine`.
 pub fn loss(cosine: f32, alpha: f32) -> f32 {
     if alpha < LOSSLESS_ALPHA {
         return 0.0;
@@ -39,7 +39,7 @@ pub fn loss(cosine: f32, alpha: f32) -> f32 {
     ((1.0 - x) * p.dot(Vec4::new(1.0, alpha, squared, squared * alpha))).clamp(0.0, 1.0)
 }
 
-/// Mean of [`loss`] over the hemisphere, weighted by the cosine.
+/// Returns the mean of [`loss`] over the hemisphere, weighted by the cosine.
 pub fn loss_mean(alpha: f32) -> f32 {
     if alpha < LOSSLESS_ALPHA {
         return 0.0;
@@ -48,8 +48,8 @@ pub fn loss_mean(alpha: f32) -> f32 {
     (r * (0.0204 + r * (-0.4171 + r * (2.5315 + r * (-1.7591 + 0.2196 * r))))).max(1.0e-4)
 }
 
-/// Share of light that facets send back that reflect (1 - x)^5 under their own cosine x; `loss` is that of
-/// [`loss`].
+/// Returns the share of light that facets send back which reflect (1 - x)^5 under their own cosine x; `loss`
+/// is the value of [`loss`].
 pub fn schlick(cosine: f32, alpha: f32, loss: f32) -> f32 {
     let x = cosine / (cosine + alpha);
     let r = alpha.sqrt();
@@ -62,13 +62,13 @@ pub fn schlick(cosine: f32, alpha: f32, loss: f32) -> f32 {
     (squared * squared * rest * (1.0 - loss) + rough).clamp(0.0, 1.0 - loss)
 }
 
-/// Mean of [`schlick`] over the hemisphere, weighted by the cosine.
+/// Returns the mean of [`schlick`] over the hemisphere, weighted by the cosine.
 pub fn schlick_mean(alpha: f32) -> f32 {
     let r = alpha.sqrt();
     SCHLICK_MEAN + r * (0.01992 + r * (-0.26779 + r * (0.31214 - 0.10745 * r)))
 }
 
-/// Share of the lost light that comes back where a facet reflects `facet` on average.
+/// Returns the share of the lost light that comes back where a facet reflects `facet` on average.
 pub fn returned(facet: Vec3, loss_mean: f32) -> Vec3 {
     facet * facet * (1.0 - loss_mean) / (Vec3::ONE - facet * loss_mean)
 }

@@ -1,4 +1,4 @@
-//! Alpha tests: they decide whether a point of a triangle is there at all.
+//! Alpha tests, which decide if a point of a triangle exists.
 
 use glam::Vec2;
 use rasray_scene::AlphaMode;
@@ -11,7 +11,7 @@ use super::{
 };
 
 impl PosedScene<'_> {
-    /// Alpha of the base colour at level 0.
+    /// Returns the alpha of the base colour at level 0.
     pub(super) fn alpha_at(&self, draw: &Draw, primitive: u32, barycentrics: Vec2) -> f32 {
         let (material, mesh) = (self.material(draw), self.mesh(draw));
         let triangle = self.mesh_vertices(draw, primitive);
@@ -22,7 +22,7 @@ impl PosedScene<'_> {
         material.base_color[3] * texel.w * attributes::color(mesh, triangle, weights).w
     }
 
-    /// The alpha test: `barycentrics` are the weights of vertices 1 and 2. True for every point of a
+    /// Applies the alpha test: `barycentrics` are the weights of vertices 1 and 2. True for every point of a
     /// draw that is not masked.
     pub fn alpha_accepts(&self, primitive: u32, barycentrics: [f64; 2]) -> bool {
         let draw = self.draw_of(primitive);

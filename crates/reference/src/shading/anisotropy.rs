@@ -1,4 +1,4 @@
-//! In which direction the facets of a surface are rougher, and how much.
+//! Direction in which the facets of a surface are rougher, and the strength of this anisotropy.
 
 use glam::{Vec2, Vec4Swizzles};
 
@@ -11,8 +11,8 @@ use super::{
 };
 
 impl PosedScene<'_> {
-    /// The surface with its anisotropy: none where the triangle is not known, or nothing says where its
-    /// tangents point.
+    /// Returns the surface with its anisotropy: none if the triangle is not known, or its tangents have no
+    /// source.
     pub(super) fn with_anisotropy(&self, surface: Surface) -> Surface {
         let isotropic = Surface { anisotropy: 0.0, ..surface };
         let Some(primitive) = surface.primitive else { return isotropic };
@@ -33,7 +33,7 @@ impl PosedScene<'_> {
         let reference = material.anisotropy_texture.as_ref();
         let uv_set = material.normal_texture.as_ref().or(reference).map_or(0, |reference| reference.uv_set);
         let tangent = textured.tangent(uv_set, corners[1] - corners[0], corners[2] - corners[0]);
-        // Tangents are those of the front.
+        // Tangents refer to the front.
         let normal = if surface.front { surface.normal } else { -surface.normal };
         let along = tangent.xyz() - normal * normal.dot(tangent.xyz());
         if !(along.length_squared() > 0.0) {

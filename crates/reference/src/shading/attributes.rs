@@ -14,7 +14,7 @@ pub fn uv(mesh: &Mesh, uv_set: u32, triangle: [usize; 3], weights: Vec3) -> Vec2
     weights.x * a + weights.y * b + weights.z * c
 }
 
-/// White where the mesh has no colours.
+/// Returns the vertex colour; white if the mesh has no colours.
 pub fn color(mesh: &Mesh, triangle: [usize; 3], weights: Vec3) -> Vec4 {
     mesh.colors.as_ref().map_or(Vec4::ONE, |colors| {
         let [a, b, c] = triangle.map(|vertex| Vec4::from(colors[vertex]));
@@ -22,7 +22,7 @@ pub fn color(mesh: &Mesh, triangle: [usize; 3], weights: Vec3) -> Vec4 {
     })
 }
 
-/// Not normalised; zero where the mesh is flat.
+/// Returns the interpolated normal, not normalised; zero if the mesh is flat.
 pub fn normal(draw: &Draw, triangle: [usize; 3], weights: Vec3) -> Vec3 {
     draw.normals.as_ref().map_or(Vec3::ZERO, |normals| {
         let [a, b, c] = triangle.map(|vertex| normals[vertex]);
@@ -30,7 +30,8 @@ pub fn normal(draw: &Draw, triangle: [usize; 3], weights: Vec3) -> Vec3 {
     })
 }
 
-/// xyz not normalised, w the sign of the bitangent; zero where the mesh has no tangents.
+/// Returns the interpolated tangent: xyz not normalised, w the sign of the bitangent; zero if the mesh has no
+/// tangents.
 pub fn tangent(draw: &Draw, triangle: [usize; 3], weights: Vec3) -> Vec4 {
     draw.tangents.as_ref().map_or(Vec4::ZERO, |tangents| {
         let [a, b, c] = triangle.map(|vertex| tangents[vertex]);

@@ -1,8 +1,8 @@
 //! Scattering at a surface: value, density and sampling of its lobes.
 //!
-//! Diffuse and GGX reflection, thin-wall and volume transmission, with what the facets send out after
-//! several scatterings; below [`SMOOTH_ROUGHNESS`] the
-//! microfacet lobes are perfect mirrors, which are sampled but neither evaluated nor given a density.
+//! The lobes are diffuse and GGX reflection, thin-wall and volume transmission, and the light that leaves the
+//! facets after several scatterings. Below [`SMOOTH_ROUGHNESS`] the microfacet lobes are perfect mirrors,
+//! which are sampled but neither evaluated nor given a density.
 
 use std::f32::consts::PI;
 
@@ -21,26 +21,26 @@ use super::{
 
 pub use super::bsdf_terms::SMOOTH_ROUGHNESS;
 
-/// A direction chosen by the surface.
+/// Direction chosen by the surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BsdfSample {
-    /// Unit.
+    /// Unit direction.
     pub direction: Vec3,
-    /// 1/sr; delta: probability of the choice.
+    /// Density, 1/sr; for delta lobes the probability of the choice.
     pub pdf: f32,
     /// Value times |cosine| over pdf.
     pub weight: Vec3,
-    /// A perfect mirror or a smooth refraction.
+    /// True for a perfect mirror or a smooth refraction.
     pub delta: bool,
-    /// Went through the surface.
+    /// True if the direction goes through the surface.
     pub transmitted: bool,
 }
 
-/// The rough microfacet family towards a direction.
+/// Rough microfacet family towards a direction.
 struct Facets {
     /// Cosine of o at the facet.
     cosine: f32,
-    /// Per unit of light reflected or transmitted at the facet.
+    /// Value per unit of light reflected or transmitted at the facet.
     value: f32,
     pdf: f32,
 }
@@ -52,13 +52,13 @@ impl Terms {
         if transmitted > 0.0 { reflected / (reflected + transmitted) } else { 1.0 }
     }
 
-    /// D(h), 1/sr.
+    /// Returns D(h), 1/sr.
     fn distribution(&self, h: Vec3) -> f32 {
         self.alphas
             .map_or_else(|| ggx_distribution(h, self.alpha), |alphas| ggx_distribution_along(h, alphas))
     }
 
-    /// G(o, i) / (4 |cos o cos i|) and G1(o) / (4 cos o).
+    /// Returns G(o, i) / (4 |cos o cos i|) and G1(o) / (4 cos o).
     fn visibilities(&self, i: Vec3) -> [f32; 2] {
         let (o, alpha) = (self.o, self.alpha);
         match self.alphas {
@@ -110,8 +110,8 @@ impl Terms {
     }
 }
 
-/// Side that the direction leads to, `cosine` being its cosine at a normal; `None` if that normal and the
-/// geometric one disagree or the direction grazes.
+/// Returns the side that the direction leads to, `cosine` being its cosine at a normal; `None` if that normal
+/// and the geometric one disagree or the direction grazes.
 fn side_of(surface: &Surface, world_i: Vec3, cosine: f32) -> Option<Side> {
     let geometric = surface.geometric_normal.dot(world_i);
     if cosine > 0.0 && geometric > 0.0 {
@@ -123,8 +123,9 @@ fn side_of(surface: &Surface, world_i: Vec3, cosine: f32) -> Option<Side> {
     }
 }
 
-/// Light that leaves towards a direction, cosine included, in 1/sr: families lie around different normals
-/// where one was bent. And the density with which [`bsdf_sample`] answers it. Delta lobes are left out.
+/// Returns the light that leaves towards a direction, cosine included, in 1/sr, and the density with which
+/// [`bsdf_sample`] chooses it. The families lie around different normals if one was bent. Delta lobes are
+/// left out.
 fn towards(terms: &Terms, surface: &Surface, i: Vec3) -> (Vec3, f32) {
     let (mut value, mut pdf) = (Vec3::ZERO, 0.0);
     if terms.o.z <= 0.0 {
@@ -148,36 +149,37 @@ fn towards(terms: &Terms, surface: &Surface, i: Vec3) -> (Vec3, f32) {
     (value + facets.value * local.z.abs() * colour, pdf + (1.0 - family) * facets.pdf * share)
 }
 
-/// Light from `o` that leaves towards `i`, times the cosine of `i` at the normal of its lobe; 1/sr. Delta
-/// lobes are left out. `o` and `i` are unit and point away.
+/// Returns the light from `o` that leaves towards `i`, times the cosine of `i` at the normal of its lobe;
+/// 1/sr. Delta lobes are left out. `o` and `i` are unit and point away.
 pub fn bsdf_times_cosine(surface: &Surface, o: Vec3, i: Vec3) -> Vec3 {
     towards(&Terms::new(surface, o), surface, i).0
 }
 
-/// [`bsdf_times_cosine`] over the cosine at the shading normal.
+/// Returns [`bsdf_times_cosine`] over the cosine at the shading normal.
 pub fn bsdf_evaluate(surface: &Surface, o: Vec3, i: Vec3) -> Vec3 {
     let cosine = surface.normal.dot(i).abs();
     if cosine > 0.0 { bsdf_times_cosine(surface, o, i) / cosine } else { Vec3::ZERO }
 }
 
-/// 1/sr with which [`bsdf_sample`] answers `i`; delta lobes are left out.
+/// Returns the density in 1/sr with which [`bsdf_sample`] chooses `i`; delta lobes are left out.
 pub fn bsdf_pdf(surface: &Surface, o: Vec3, i: Vec3) -> f32 {
     towards(&Terms::new(surface, o), surface, i).1
 }
 
-/// True if a surface scatters otherwise than in one direction; `o` as in [`bsdf_times_cosine`].
+/// True if a surface scatters in more than single directions; `o` as in [`bsdf_times_cosine`].
 pub fn bsdf_is_rough(surface: &Surface, o: Vec3) -> bool {
     let terms = Terms::new(surface, o);
     terms.cosine_probability().family > 0.0 || !terms.mirror
 }
 
-/// Share of the light that goes straight through a pane ([`Surface::is_pane`]) towards `o`, and the
-/// probability with which paths take it; 0 for every other surface.
+/// Returns the share of the light that goes straight through a pane ([`Surface::is_pane`]) towards `o`, and
+/// the probability with which paths take it; 0 for every other surface.
 pub fn bsdf_straight(surface: &Surface, o: Vec3) -> (Vec3, f32) {
     if surface.is_pane { Terms::new(surface, o).straight() } else { (Vec3::ZERO, 0.0) }
 }
 
-/// Random numbers: lobe, side, and two for the direction. `None`: absorbed.
+/// Chooses a direction. The random numbers choose lobe and side; two choose the direction. `None` if the
+/// light is absorbed.
 pub fn bsdf_sample(surface: &Surface, o: Vec3, [lobe, side, u, v]: [f32; 4]) -> Option<BsdfSample> {
     let terms = Terms::new(surface, o);
     if terms.o.z <= 0.0 {
@@ -227,7 +229,7 @@ pub fn bsdf_sample(surface: &Surface, o: Vec3, [lobe, side, u, v]: [f32; 4]) -> 
         local
     };
     let world = (terms.frame * local).normalize();
-    // A facet can send light through the surface as a whole; the cosine family makes up for what is lost so.
+    // A facet can send light through the surface as a whole; the cosine family compensates for this loss.
     let cosine = if lobe < family { local.dot(terms.base) } else { local.z };
     if side_of(surface, world, cosine) != Some(expected) {
         return None;

@@ -15,11 +15,11 @@ use super::{
 
 /// Perceptual roughness below which the microfacet lobes are perfect mirrors.
 pub const SMOOTH_ROUGHNESS: f32 = 0.03;
-/// Indices closer to 1 than this do not bend.
+/// Largest difference of an index from 1 at which light is not bent.
 const STRAIGHT_INDEX: f32 = 1.0e-3;
 /// Bounds of the probability of the cosine family where both families exist.
 const COSINE_BOUNDS: (f32, f32) = (0.05, 0.95);
-/// The lower bound is at most this multiple of the share of the light that the cosine family has.
+/// Multiple of the cosine family's share of the light that the lower bound does not exceed.
 const COSINE_FACTOR: f32 = 4.0;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -34,50 +34,51 @@ pub struct Terms {
     pub base_color: Vec3,
     pub metallic: f32,
     pub transmission: f32,
-    /// 0 for perfect mirrors; of facets that are rougher along one direction the root mean square.
+    /// Alpha of the facets; 0 for perfect mirrors. For facets that are rougher along one direction it is the
+    /// root mean square.
     pub alpha: f32,
-    /// Along x and y of the frame, where they are not the same.
+    /// Alphas along x and y of the frame, if they differ.
     pub alphas: Option<Vec2>,
-    /// Alphas of Ward's lobe, where the surface reflects by it.
+    /// Alphas of Ward's lobe, if the surface reflects by it.
     pub ward: Option<Vec2>,
-    /// Index on the side of o over the index on the other side; 1: straight on.
+    /// Ratio of the index on the side of o to that on the other side; 1 means straight on.
     pub eta: f32,
     pub mirror: bool,
-    /// Light that goes straight through is followed apart, and is in no lobe.
+    /// True if light that goes straight through is followed separately, and is in no lobe.
     pane: bool,
-    /// World from local; z is the normal of the facets.
+    /// Rotation from local to world; z is the normal of the facets.
     pub frame: Mat3,
-    /// The shading normal, local: the cosine family lies around it.
+    /// Shading normal, local: the cosine family lies around it.
     pub base: Vec3,
-    /// Local.
+    /// Direction o, local.
     pub o: Vec3,
-    /// Glass of a rough volume.
+    /// Terms of glass, for a rough volume.
     glass: Option<Glass>,
     energy: Energy,
 }
 
-/// Light that one scattering at the boundary of a rough volume loses, and where it goes.
+/// Light that one scattering at the boundary of a rough volume loses, and its distribution.
 struct Glass {
     table: &'static glass_albedo::Table,
     roughness: f32,
-    /// The side of o.
+    /// Side of o.
     side: Block,
     /// Share that is lost from o, its mean over the hemisphere, and the mean on the other side.
     loss: f32,
     mean: f32,
     beyond: f32,
-    /// Shares of the lost light that are reflected, and that go through.
+    /// Shares of the lost light that are reflected, and that are transmitted.
     returned: Vec3,
     passed: Vec3,
 }
 
-/// Light that one scattering at the facets loses, and where it goes.
+/// Light that one scattering at the facets loses, and its distribution.
 #[derive(Default)]
 struct Energy {
     /// Share that is lost from o, and its mean over the hemisphere.
     loss: f32,
     loss_mean: f32,
-    /// Shares of the lost light that are reflected, and that go through a thin wall.
+    /// Shares of the lost light that are reflected, and that are transmitted by a thin wall.
     returned: Vec3,
     passed: Vec3,
     /// Largest channel of the share that the dielectric reflects.
@@ -87,14 +88,14 @@ struct Energy {
     entering_mean: f32,
 }
 
-/// Probability of the cosine family, and within it of going through the surface.
+/// Probability of the cosine family, and within it of transmission.
 pub struct CosineProbability {
     pub family: f32,
     pub through: f32,
 }
 
-/// A frame along whose x axis facets are rougher, and the alphas along x and y; `None` where they are as
-/// rough in all directions.
+/// Returns a frame along whose x axis facets are rougher, and the alphas along x and y; `None` if the facets
+/// are equally rough in all directions.
 fn anisotropy(surface: &Surface, normal: Vec3) -> Option<(Mat3, Vec2)> {
     let along = surface.rougher - normal * normal.dot(surface.rougher);
     if !(surface.anisotropy > 0.0) || !(along.length_squared() > 0.0) {
@@ -126,7 +127,7 @@ impl Terms {
             base_color: surface.base_color,
             metallic: surface.metallic,
             transmission: surface.transmission,
-            // Nothing makes up for what Ward's lobe loses: the rest is as below a mirror.
+            // Losses of Ward's lobe are not compensated: the other lobes are as below a mirror.
             alpha: match alphas {
                 _ if ward.is_some() => 0.0,
                 Some(alphas) => (0.5 * alphas.length_squared()).sqrt(),
@@ -155,8 +156,8 @@ impl Terms {
         terms
     }
 
-    /// Lost light goes through as facets let it, but no more than is lost for light that takes the same way
-    /// back.
+    /// Computes the terms of glass. Lost light is transmitted in the share that the facets transmit, but no
+    /// more than is lost for light that takes the same way back.
     fn glass(&self, ior: f32, surface: &Surface) -> Glass {
         let table = glass_albedo::table(ior, self.f0.max_element(), self.f90);
         let roughness = if self.alphas.is_some() { self.alpha.sqrt() } else { surface.roughness };
@@ -186,24 +187,24 @@ impl Terms {
         glass
     }
 
-    /// Share of the surface that lets light through.
+    /// Returns the share of the surface that lets light through.
     fn volume_share(&self) -> f32 {
         (1.0 - self.metallic) * self.transmission
     }
 
-    /// Mean reflectance of the dielectric's facets on the side of the smaller index.
+    /// Returns the mean reflectance of the dielectric's facets on the side of the smaller index.
     fn facet_mean(&self) -> Vec3 {
         self.f0 + (Vec3::splat(self.f90) - self.f0) * albedo::SCHLICK_MEAN
     }
 
-    /// Mean share that facets let through, by the brightest channel.
+    /// Returns the mean share that facets let through, by the brightest channel.
     fn facet_through(&self) -> f32 {
         let through = 1.0 - self.facet_mean().max_element();
         if self.eta > 1.0 { through / (self.eta * self.eta) } else { through }
     }
 
-    /// Sets the energy of what is not a volume's. What the dielectric loses on the side of the larger index
-    /// counts as let in.
+    /// Sets the energy of surfaces that are no volume. Light that the dielectric loses on the side of the
+    /// larger index counts as let in.
     fn set_energy(&mut self) {
         let cosine = self.o.z.max(0.0);
         self.energy.loss = albedo::loss(cosine, self.alpha);
@@ -223,7 +224,8 @@ impl Terms {
         self.energy.entering_mean = self.entering_mean();
     }
 
-    /// Share of the light that the dielectric as a whole does not reflect, by its brightest channel.
+    /// Returns the share of the light that the dielectric as a whole does not reflect, by its brightest
+    /// channel.
     fn entering(&self, cosine: f32, loss: f32) -> f32 {
         if self.eta > 1.0 {
             return match &self.glass {
@@ -249,7 +251,7 @@ impl Terms {
         (1.0 - once - self.energy.returned_most * loss).max(1.0e-3)
     }
 
-    /// Reflected share of the dielectric at a facet seen under `cosine`.
+    /// Returns the reflected share of the dielectric at a facet seen under `cosine`.
     pub fn fresnel(&self, cosine: f32) -> Vec3 {
         let mut x = cosine;
         if self.eta > 1.0 {
@@ -276,8 +278,8 @@ impl Terms {
         self.base_color * (self.volume_share() * through)
     }
 
-    /// Share of the light that a pane lets through in a straight line, and the probability with which paths
-    /// take it.
+    /// Returns the share of the light that a pane lets through in a straight line, and the probability with
+    /// which paths take it.
     pub fn straight(&self) -> (Vec3, f32) {
         let share = if self.pane && self.o.z > 0.0 { self.facet_transmitted(self.o.z) } else { Vec3::ZERO };
         let through = luminance(share);
@@ -293,7 +295,7 @@ impl Terms {
         (1.0 - self.metallic) * (1.0 - self.transmission)
     }
 
-    /// Light that left the boundary of a rough volume after several scatterings; 1/sr.
+    /// Returns the light that leaves the boundary of a rough volume after several scatterings; 1/sr.
     fn several_in_glass(&self, cosine: f32, side: Side) -> Vec3 {
         let Some(glass) = self.glass.as_ref().filter(|glass| glass.mean > 0.0) else { return Vec3::ZERO };
         let share = |block| glass.loss * glass.table.share(block, glass.roughness, cosine) / PI;
@@ -303,7 +305,7 @@ impl Terms {
         }
     }
 
-    /// The diffuse base, and what left the facets after several scatterings; 1/sr.
+    /// Returns the diffuse base, and the light that leaves the facets after several scatterings; 1/sr.
     pub fn cosine_family(&self, cosine: f32, side: Side) -> Vec3 {
         let energy = &self.energy;
         let loss = albedo::loss(cosine, self.alpha);

@@ -1,4 +1,4 @@
-//! Rays of a pixel.
+//! Rays of the pixels of a camera.
 
 use glam::{DVec3, Vec2, Vec3};
 use rasray_scene::{Camera, Projection, Sampler};
@@ -13,11 +13,11 @@ use super::{
 pub struct View {
     /// Placement and projection, world.
     pub camera: Camera,
-    /// Pixels a row.
+    /// Number of pixels per row.
     pub width: u32,
-    /// Rows.
+    /// Number of rows.
     pub height: u32,
-    /// Samples per pixel.
+    /// Number of samples per pixel.
     pub samples: u32,
     /// Seed of all random numbers.
     pub seed: u32,
@@ -26,13 +26,15 @@ pub struct View {
 }
 
 impl View {
-    /// The numbers of one sample of one pixel.
+    /// Returns the random numbers of one sample of one pixel.
     pub fn numbers(&self, pixel: u32, sample: u32) -> Numbers {
         Numbers { sampler: self.sampler, stream: RandomStream { seed: self.seed, pixel, sample } }
     }
 
+    /// Checks the size of the image.
+    ///
     /// # Errors
-    /// If the image has no pixels or no samples.
+    /// An error if the image has no pixels or no samples.
     pub fn check(&self) -> Result<(), ReferenceError> {
         let Self { width, height, samples, .. } = *self;
         if width == 0 || height == 0 || samples == 0 {
@@ -42,20 +44,20 @@ impl View {
     }
 }
 
-/// A place within the pixel of `random`, uniform, in pixels from the top left corner.
+/// Returns a position within the pixel of `random`, uniform, in pixels from the top left corner.
 pub fn pixel_position(width: u32, random: Numbers) -> Vec2 {
     let pixel = random.stream.pixel;
     let corner = Vec2::new((pixel % width) as f32, (pixel / width) as f32);
     corner + Vec2::new(random.float(RANDOM_CAMERA_X), random.float(RANDOM_CAMERA_Y))
 }
 
-/// Two numbers that choose a place on the lens.
+/// Returns two numbers that choose a point on the lens.
 pub fn lens_numbers(random: Numbers) -> Vec2 {
     Vec2::new(random.float(RANDOM_LENS_U), random.float(RANDOM_LENS_V))
 }
 
-/// A ray through a place on the lens, uniform over it for two uniform numbers, that meets `ray`, which goes
-/// through its centre, in the plane in focus; the ray itself where the camera has no lens.
+/// Returns a ray through a point on the lens, uniform over it for two uniform numbers. It meets `ray`, which
+/// goes through the lens's centre, in the plane in focus. Without a lens `ray` itself is returned.
 pub fn through_lens(camera: &Camera, ray: Ray, random: Vec2) -> Ray {
     let (Some(lens), Projection::Perspective { .. }) = (camera.lens, camera.projection) else { return ray };
     if !(lens.aperture > 0.0) {
@@ -72,16 +74,16 @@ pub fn through_lens(camera: &Camera, ray: Ray, random: Vec2) -> Ray {
     }
 }
 
-/// Right, up and into the image.
+/// Returns the axes of the camera: right, up and into the image.
 fn axes(camera: &Camera) -> [Vec3; 3] {
     let axes = camera.world_from_camera.matrix3;
     let axis = |axis: DVec3, otherwise: DVec3| axis.normalize_or(otherwise).as_vec3();
     [axis(axes.x_axis, DVec3::X), axis(axes.y_axis, DVec3::Y), axis(-axes.z_axis, DVec3::NEG_Z)]
 }
 
-/// The ray through the centre of the lens and `position` (pixels from the top left corner; the first pixel's
-/// centre is (0.5, 0.5)), relative to `frame_origin` (world, metres). Its cone is that of one sample of the
-/// pixel; it passes no backs.
+/// Returns the ray through the centre of the lens and `position` (pixels from the top left corner; the first
+/// pixel's centre is (0.5, 0.5)), relative to `frame_origin` (world, metres). Its cone is that of one sample
+/// of the pixel; it passes no backs.
 pub fn camera_ray(view: &View, frame_origin: DVec3, position: Vec2) -> Ray {
     let [right, up, forward] = axes(&view.camera);
     let eye = (view.camera.world_from_camera.translation - frame_origin).as_vec3();

@@ -14,17 +14,17 @@ use super::{
     triangle::{barycentric_weights, triangle_normal, triangle_point},
 };
 
-/// The disk of light from afar is larger than what it covers by rounding.
+/// Ratio by which the disk of light from afar is enlarged, so that rounding leaves no triangle uncovered.
 const DISK_MARGIN: f32 = 1.001;
 
-/// A photon as it leaves a light.
+/// Photon as it leaves a light.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Emission {
-    /// Its ray.
+    /// Ray of the photon.
     pub ray: Ray,
-    /// W, over the probability of its choice.
+    /// Flux over the probability of its choice, W.
     pub flux: Vec3,
-    /// Metres to where a light without extent ends; infinite for all others.
+    /// Distance at which a light without extent ends, metres; infinite for all others.
     pub range: f32,
 }
 
@@ -44,14 +44,14 @@ impl Emission {
 }
 
 impl PosedScene<'_> {
-    /// Metres from one corner of the box of all triangles to the opposite one.
+    /// Returns the diagonal of the box of all triangles, metres.
     pub fn diagonal(&self) -> f32 {
         let [lower, upper] = bounds(self).map(DVec3::as_vec3);
         (upper - lower).length()
     }
 
-    /// A photon, by random numbers for each of: kind, light or row, place; and for: side, unused, direction.
-    /// `None` where nothing is emitted.
+    /// Emits a photon. The numbers of `place` choose kind, light or row, and position; those of `towards`
+    /// choose side and direction, one being unused. `None` if nothing is emitted.
     pub fn emit_photon(&self, place: [f32; 4], towards: [f32; 4]) -> Option<Emission> {
         let [kind, pick, u, v] = place;
         let [side, _, x, y] = towards;
@@ -73,7 +73,7 @@ impl PosedScene<'_> {
         Some(emission)
     }
 
-    /// From a disk across the direction that covers all triangles, before all of them.
+    /// Emits a photon from a disk across the direction that covers all triangles, before all of them.
     fn emit_from_afar(&self, direction: Vec3, irradiance: Vec3, [x, y]: [f32; 2]) -> Emission {
         let [lower, upper] = bounds(self).map(DVec3::as_vec3);
         let radius = 0.5 * (upper - lower).length() * DISK_MARGIN;

@@ -1,4 +1,4 @@
-//! Radiance from outside, constant or a latitude-longitude map of constant texels.
+//! Radiance from outside: constant, or a latitude-longitude map of constant texels.
 
 use std::f32::consts::PI;
 
@@ -7,7 +7,7 @@ use rasray_scene::Environment;
 
 use super::luminance;
 
-/// The environment with its distribution.
+/// Environment with its distribution.
 #[derive(Clone, Debug, Default)]
 pub struct EnvironmentTable {
     constant: Vec3,
@@ -25,7 +25,8 @@ struct Map {
     columns: Vec<Vec<f32>>,
 }
 
-/// Cumulative shares of `weights`, summed in f64 and rounded once; 1 from the last entry with weight on.
+/// Returns the cumulative shares of `weights`, summed in f64 and rounded once; 1 from the last entry with
+/// weight on.
 pub(super) fn cumulative_shares(weights: &[f64]) -> (f64, Vec<f32>) {
     let total: f64 = weights.iter().sum();
     let last = weights.iter().rposition(|weight| *weight > 0.0).unwrap_or(0);
@@ -37,18 +38,18 @@ pub(super) fn cumulative_shares(weights: &[f64]) -> (f64, Vec<f32>) {
     (total, shares.collect())
 }
 
-/// First entry whose cumulative share exceeds `random`.
+/// Returns the first entry whose cumulative share exceeds `random`.
 pub(super) fn search(shares: &[f32], random: f32) -> usize {
     shares.partition_point(|share| *share <= random).min(shares.len().saturating_sub(1))
 }
 
-/// Share of one entry.
+/// Returns the share of one entry.
 pub(super) fn share(shares: &[f32], index: usize) -> f32 {
     if index == 0 { shares[0] } else { shares[index] - shares[index - 1] }
 }
 
 impl EnvironmentTable {
-    /// Takes an environment whose size fits its texels.
+    /// Makes the table of an environment whose size fits its texels.
     pub fn new(environment: &Environment) -> Self {
         match environment {
             Environment::Constant(radiance) => {
@@ -80,30 +81,30 @@ impl EnvironmentTable {
         }
     }
 
-    /// True if light samples are worth taking.
+    /// True if light samples of the environment are worth taking.
     pub fn is_sampled(&self) -> bool {
         self.sampled
     }
 
-    /// Luminance of the radiance over the whole sphere, W/m^2.
+    /// Returns the luminance of the radiance over the whole sphere, W/m^2.
     pub fn irradiance(&self) -> f64 {
         self.irradiance
     }
 
-    /// W/(sr m^2) that arrives against the unit `direction`.
+    /// Returns the radiance that arrives against the unit `direction`, W/(sr m^2).
     pub fn radiance(&self, direction: Vec3) -> Vec3 {
         self.map
             .as_ref()
             .map_or(self.constant, |map| map.radiance[map.row(direction) * map.width + map.column(direction)])
     }
 
-    /// 1/sr of [`EnvironmentTable::sample`].
+    /// Returns the density of [`EnvironmentTable::sample`], 1/sr.
     pub fn pdf(&self, direction: Vec3) -> f32 {
         self.map.as_ref().map_or(1.0 / (4.0 * PI), |map| map.pdf(map.row(direction), map.column(direction)))
     }
 
-    /// A direction with its radiance and pdf: `pick` chooses the row, `place.x` the column and the
-    /// azimuth within it, `place.y` the polar angle within the row.
+    /// Chooses a direction and returns it with its radiance and pdf: `pick` chooses the row, `place.x` the
+    /// column and the azimuth within it, `place.y` the polar angle within the row.
     pub fn sample(&self, pick: f32, place: Vec2) -> (Vec3, Vec3, f32) {
         let (cosine, azimuth, radiance, pdf) = match &self.map {
             None => (1.0 - 2.0 * place.x, 2.0 * PI * place.y, self.constant, 1.0 / (4.0 * PI)),

@@ -1,21 +1,21 @@
 use crate::oracle::OracleError;
 
-/// Why a reference image cannot be made.
+/// Error of making a reference image.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ReferenceError {
-    /// The triangles cannot be asked for hits.
+    /// The oracle cannot be made.
     #[error(transparent)]
     Oracle(#[from] OracleError),
-    /// The scene names something that it does not have.
+    /// The scene refers to an element that it does not have.
     #[error("{what}, but the scene has {count}; load it through the scene crate, which checks this")]
     Malformed {
-        /// The mismatch, such as `instance a names mesh 3`.
+        /// Description of the mismatch, such as `instance a names mesh 3`.
         what: String,
-        /// Number that the scene has.
+        /// Number of such elements of the scene.
         count: usize,
     },
-    /// Posed positions given from outside do not fit the scene.
+    /// The number of given posed positions does not fit the scene.
     #[error(
         "{given} posed positions were given for a scene of {expected}; pass one for each vertex of each instance"
     )]
@@ -25,14 +25,14 @@ pub enum ReferenceError {
         /// Number of positions of the scene.
         expected: usize,
     },
-    /// An image without pixels or samples.
+    /// The image has no pixels or samples.
     #[error("an image of {width} x {height} pixels with {samples} samples is empty; each must be at least 1")]
     EmptyImage {
-        /// Pixels a row.
+        /// Number of pixels per row.
         width: u32,
-        /// Rows.
+        /// Number of rows.
         height: u32,
-        /// Samples per pixel.
+        /// Number of samples per pixel.
         samples: u32,
     },
 }

@@ -1,16 +1,16 @@
-//! The normal that the facets of a surface lie around, where its shading normal leans away.
+//! Normal around which the facets of a surface lie, for shading normals that lean away.
 
 use glam::Vec3;
 
 /// Cosine to which the facets' normal is bent where the shading normal faces away from the viewer.
 const NORMAL_COSINE: f32 = 0.01;
-/// Least height of a mirrored direction over the geometric surface, or this share of that of the viewer where
-/// it grazes.
+/// Least height of a mirrored direction over the geometric surface, or, for a grazing viewer, this share of
+/// the viewer's height.
 const MIRRORED_HEIGHT: f32 = 0.01;
 const MIRRORED_SHARE: f32 = 0.9;
 
-/// The normal that facets lie around: the shading normal, bent until it faces `o`, and then just so far that
-/// `o` mirrored at it leaves the geometric surface.
+/// Returns the normal around which facets lie: the shading normal, bent until it faces `o`, and then only so
+/// far that `o` mirrored at it leaves the geometric surface.
 pub(super) fn facet_normal(normal: Vec3, geometric_normal: Vec3, o: Vec3) -> Vec3 {
     let cosine = normal.dot(o);
     let facing =

@@ -1,6 +1,6 @@
-//! Light that rough glass loses in one scattering, tabulated for every index and reflectance that is asked
-//! for. After Kulla and Conty 2017. The points are those of the shaders' tables, so that the two differ by
-//! rounding alone; tests integrate in another way.
+//! Light that rough glass loses in one scattering, tabulated for every index and reflectance in use. After
+//! Kulla and Conty 2017. The points are those of the shaders' tables, so that the two differ by rounding
+//! alone; tests integrate in another way.
 
 use std::{
     collections::HashMap,
@@ -8,40 +8,41 @@ use std::{
     sync::{Mutex, OnceLock, PoisonError},
 };
 
-/// Steps of roughness, and of the root of the cosine.
+/// Number of steps of roughness, and of the root of the cosine.
 const STEPS: usize = 15;
-/// Points of the integral over visible normals: a Fibonacci lattice.
+/// Number of points of the integral over visible normals: a Fibonacci lattice.
 const POINTS: usize = 2584;
 const STEP: usize = 1597;
 
-/// Share of the light, a row for every roughness.
+/// Shares of the light, a row for every roughness.
 type Rows = [[f32; STEPS + 1]; STEPS + 1];
 
 /// Quantity that is tabulated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Block {
-    /// Lost where light arrives at the front.
+    /// Share that is lost where light arrives at the front.
     Front,
-    /// Lost where light arrives at the back.
+    /// Share that is lost where light arrives at the back.
     Back,
-    /// Reflected once on the side of the larger index.
+    /// Share that is reflected once on the side of the larger index.
     Reflected,
 }
 
 impl Block {
-    /// The other side.
+    /// Returns the block of the other side.
     pub fn beyond(self) -> Self {
         if self == Self::Front { Self::Back } else { Self::Front }
     }
 }
 
-/// The table of one glass.
+/// Table of one glass.
 #[derive(Clone, Debug)]
 pub struct Table {
     blocks: [(Rows, [f32; STEPS + 1]); 3],
 }
 
-/// The table for an index of the inside, and the reflectance at normal incidence and at grazing. Tables stay.
+/// Returns the table for an index of the inside, and the reflectance at normal incidence and at grazing.
+/// Tables are kept for later calls.
 pub fn table(ior: f32, f0: f32, f90: f32) -> &'static Table {
     static TABLES: OnceLock<Mutex<HashMap<[u32; 3], &'static Table>>> = OnceLock::new();
     let mut tables = TABLES.get_or_init(Mutex::default).lock().unwrap_or_else(PoisonError::into_inner);
@@ -71,7 +72,7 @@ impl Table {
         Self { blocks: [front, back, reflected].map(|rows| (rows, rows.map(mean))) }
     }
 
-    /// Share under `cosine`, interpolated.
+    /// Returns the interpolated share under `cosine`.
     pub fn share(&self, block: Block, roughness: f32, cosine: f32) -> f32 {
         let (row, above) = place(roughness);
         let (column, right) = place(cosine.clamp(0.0, 1.0).sqrt());
@@ -80,7 +81,7 @@ impl Table {
         mix(between(column), between(column + 1), right)
     }
 
-    /// Its mean over the hemisphere, weighted by the cosine.
+    /// Returns the mean share over the hemisphere, weighted by the cosine.
     pub fn mean(&self, block: Block, roughness: f32) -> f32 {
         let (row, above) = place(roughness);
         let means = &self.blocks[block as usize].1;
@@ -98,16 +99,18 @@ fn place(value: f32) -> (usize, f32) {
     (index, place - index as f32)
 }
 
-/// Mean of values that are linear in the root y of the cosine: the integral of 4 y³ times the value.
+/// Returns the mean of values that are linear in the root y of the cosine: the integral of 4 y³ times the
+/// value.
 fn mean(values: [f32; STEPS + 1]) -> f32 {
     let fifth = |node: usize| (node as f64 / STEPS as f64).powi(5);
-    // By parts: the value at the end, less the slopes times y⁴.
+    // Integration by parts gives the value at the end, less the slopes times y⁴.
     let rise = |node: usize| f64::from(values[node + 1]) - f64::from(values[node]);
     let slopes: f64 = (0..STEPS).map(|node| rise(node) * (fifth(node + 1) - fifth(node))).sum();
     (f64::from(values[STEPS]) - slopes * STEPS as f64 / 5.0) as f32
 }
 
-/// Shares of the light from `cosine` that one scattering reflects and refracts to where they belong.
+/// Returns the shares of the light from `cosine` that one scattering reflects and refracts to the correct
+/// side.
 fn sent_on(cosine: f64, alpha: f64, eta: f64, [f0, f90]: [f64; 2]) -> (f64, f64) {
     let fresnel = |x: f64| {
         let squared = 1.0 - eta * eta * (1.0 - x * x);

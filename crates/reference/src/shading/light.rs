@@ -16,28 +16,28 @@ use super::{
     triangle::{barycentric_weights, triangle_normal, triangle_point},
 };
 
-/// Most parts a side into which a triangle is cut to look at its texels.
+/// Largest number of parts per side into which a triangle is cut to sample its texels.
 const MOST_PARTS: f64 = 128.0;
-/// Least probability of a kind of light that is there, before the sum is made 1.
+/// Least probability of a kind of light that exists, before the sum is normalised to 1.
 const LEAST_KIND: f64 = 0.1;
 
-/// A direction chosen by the lights.
+/// Direction chosen by the lights.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LightSample {
-    /// Unit, from the surface to the light.
+    /// Unit direction from the surface to the light.
     pub direction: Vec3,
     /// End of the shadow segment; `None` for lights that are infinitely far away.
     pub target: Option<Vec3>,
-    /// Arriving, W/(sr m^2); delta: irradiance across the direction, W/m^2.
+    /// Arriving radiance, W/(sr m^2); for delta lights the irradiance across the direction, W/m^2.
     pub radiance: Vec3,
-    /// 1/sr including the choice of the light; delta: probability of the choice.
+    /// Density including the choice of the light, 1/sr; for delta lights the probability of the choice.
     pub pdf: f32,
-    /// The light has no extent.
+    /// True if the light has no extent.
     pub delta: bool,
 }
 
 impl LightSample {
-    /// The ray that asks whether the sample is seen from the surface; `None` if nothing can lie between.
+    /// Returns the ray that tests if the surface sees the sample; `None` if nothing can lie between.
     pub fn shadow_ray(&self, surface: &Surface) -> Option<Ray> {
         match self.target {
             Some(target) => spawn_segment(surface, target),
@@ -92,8 +92,8 @@ impl LightTable {
     }
 }
 
-/// Mean over the triangle of the emission texture, by the luminance of the factor times it: texels at the
-/// centroids of n by n parts.
+/// Returns the mean over the triangle of the emission texture, by the luminance of the factor times it:
+/// texels at the centroids of n by n parts.
 fn glow_share(posed: &PosedScene<'_>, draw: &Draw, primitive: u32) -> f64 {
     let material = posed.material(draw);
     let Some(reference) = &material.emission_texture else { return 1.0 };
@@ -123,7 +123,7 @@ fn glow_share(posed: &PosedScene<'_>, draw: &Draw, primitive: u32) -> f64 {
     sum / f64::from(parts * parts) / f64::from(luminance(factor))
 }
 
-/// Luminous power, W; `disk` is the area that all triangles show at most, m^2.
+/// Returns the luminous power, W; `disk` is the largest projected area of all triangles, m^2.
 fn punctual_power(light: &Light, disk: f64) -> f64 {
     let bright = |color: [f32; 3]| f64::from(luminance(Vec3::from(color)).max(0.0));
     match *light {
@@ -136,8 +136,8 @@ fn punctual_power(light: &Light, disk: f64) -> f64 {
     }
 }
 
-/// Corners of the box of all triangles, metres relative to the frame origin; the upper ones are below the
-/// lower ones where there are none.
+/// Returns the corners of the box of all triangles, metres relative to the frame origin; without triangles
+/// the upper corner is below the lower one.
 pub(super) fn bounds(posed: &PosedScene<'_>) -> [DVec3; 2] {
     let (mut lower, mut upper) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
     for index in posed.indices() {
@@ -149,13 +149,13 @@ pub(super) fn bounds(posed: &PosedScene<'_>) -> [DVec3; 2] {
     [lower, upper]
 }
 
-/// Area of the circle around the box of all triangles, m^2.
+/// Returns the area of the circle around the box of all triangles, m^2.
 fn disk(posed: &PosedScene<'_>) -> f64 {
     let [lower, upper] = bounds(posed);
     if lower.x <= upper.x { 0.25 * PI * (upper - lower).length_squared() } else { 0.0 }
 }
 
-/// Probabilities of the kinds from their powers; `None`: not there.
+/// Returns the probabilities of the kinds from their powers; `None` stands for a kind that does not exist.
 fn kind_shares(powers: [Option<f64>; 3]) -> [f32; 3] {
     let present = powers.iter().flatten().count();
     let total: f64 = powers.iter().flatten().sum();
@@ -169,28 +169,30 @@ fn kind_shares(powers: [Option<f64>; 3]) -> [f32; 3] {
     shares
 }
 
-/// Factor of the cosine to the direction of a spot, and what is added after it.
+/// Returns the factor of the cosine to the direction of a spot, and the number to add after it.
 pub(super) fn cone(inner: f32, outer: f32) -> [f32; 2] {
     let (inner, outer) = (f64::from(inner).cos(), f64::from(outer).cos());
     let scale = 1.0 / (inner - outer).max(0.001);
     [scale as f32, (-outer * scale) as f32]
 }
 
-/// Share of its light that a light without extent sends so far, beside the square of the distance.
+/// Returns the share of its light that a light without extent sends as far as `distance`, besides the square
+/// of the distance.
 pub fn window(distance: f32, range: f32) -> f32 {
     let ratio = distance / range;
     (1.0 - ratio * ratio * ratio * ratio).clamp(0.0, 1.0)
 }
 
-/// 1/sr of a point uniform on a triangle, as seen along the unit `direction` from `distance` away.
+/// Returns the density, 1/sr, of a point uniform on a triangle, as seen along the unit `direction` from
+/// `distance` away.
 fn area_pdf(normal: Vec3, twice_area: f32, direction: Vec3, distance: f32) -> f32 {
     let projected = 0.5 * twice_area * normal.dot(direction).abs();
     if projected > 0.0 { distance * distance / projected } else { 0.0 }
 }
 
 impl PosedScene<'_> {
-    /// A direction from the surface to a light, one random number for each of: kind, light or row,
-    /// place. `None` where nothing can arrive.
+    /// Chooses a direction from the surface to a light; the random numbers choose kind, light or row, and
+    /// position. `None` if no light can arrive.
     pub fn light_sample(&self, surface: &Surface, [kind, pick, u, v]: [f32; 4]) -> Option<LightSample> {
         let [punctual, emissive, environment] = self.lights.kinds;
         let (share, mut chosen) = if kind < punctual {
@@ -269,7 +271,8 @@ impl PosedScene<'_> {
         Some(LightSample { direction, target, radiance, pdf, delta: false })
     }
 
-    /// 1/sr with which [`PosedScene::light_sample`] chooses `position` on `primitive` from `origin`.
+    /// Returns the density, 1/sr, with which [`PosedScene::light_sample`] chooses `position` on `primitive`
+    /// from `origin`.
     pub fn light_pdf_emitter(&self, primitive: u32, origin: Vec3, position: Vec3) -> f32 {
         let draw = self.draw_of_index(primitive);
         let Some(Some(first)) = self.lights.first_of_draw.get(draw) else { return 0.0 };
@@ -285,7 +288,8 @@ impl PosedScene<'_> {
         share(&self.lights.cumulative, entry) * density * self.lights.kinds[1]
     }
 
-    /// 1/sr with which [`PosedScene::light_sample`] chooses the environment in `direction`.
+    /// Returns the density, 1/sr, with which [`PosedScene::light_sample`] chooses the environment in
+    /// `direction`.
     pub fn environment_pdf(&self, direction: Vec3) -> f32 {
         if !self.environment.is_sampled() {
             return 0.0;
@@ -293,7 +297,7 @@ impl PosedScene<'_> {
         self.environment.pdf(direction) * self.lights.kinds[2]
     }
 
-    /// W/(sr m^2) from outside against the unit `direction`.
+    /// Returns the radiance from outside against the unit `direction`, W/(sr m^2).
     pub fn environment_radiance(&self, direction: Vec3) -> Vec3 {
         self.environment.radiance(direction)
     }

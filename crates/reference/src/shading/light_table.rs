@@ -1,11 +1,11 @@
-//! The table that lights are chosen by.
+//! Table by which lights are chosen.
 
-/// The emissive triangles, the lights without extent and the kinds of light, by power.
+/// Emissive triangles, lights without extent and kinds of light, by power.
 #[derive(Clone, Debug, Default)]
 pub struct LightTable {
     pub(super) primitives: Vec<u32>,
     pub(super) cumulative: Vec<f32>,
-    /// For each draw, the entry of its first triangle.
+    /// Entry of the first triangle of each draw.
     pub(super) first_of_draw: Vec<Option<u32>>,
     /// Cumulative shares of the lights without extent.
     pub(super) punctual: Vec<f32>,

@@ -1,9 +1,9 @@
 //! Shading from a hit to its radiance, computed naively from the scene model.
 //!
-//! The mathematics is that of `docs/shading.md` and is written a second time here, in single precision
-//! and in the order of the shaders, because the outcome of a random choice depends on it. Nothing
-//! is shared with what is uploaded to a device: textures, attributes, lights and materials are read
-//! from [`rasray_scene::Scene`], so that a mistake in packing shows as a difference.
+//! The mathematics is that of `docs/shading.md` and is written a second time here, in single precision and in
+//! the order of the shaders, because the outcome of a random choice depends on it. No data are shared with
+//! the upload to a device: textures, attributes, lights and materials are read from [`rasray_scene::Scene`],
+//! so that a mistake in packing shows as a difference.
 //!
 //! Lengths are metres relative to the frame origin, radiance is W/(sr m^2) in linear Rec. 709.
 

@@ -1,4 +1,4 @@
-//! A scene with every instance in place, ready to be asked for surfaces and lights.
+//! Scene with every instance in place, from which surfaces and lights are computed.
 
 use glam::{DMat3, DVec3, Vec3, Vec4};
 use rasray_scene::{AlphaMode, BackFaces, Environment, Material, Mesh, Scene, TextureRef};
@@ -12,22 +12,22 @@ use super::{
     texture::{TextureTable, Use},
 };
 
-/// One run of triangles of one instance.
+/// Run of triangles of one instance.
 #[derive(Clone, Debug)]
 pub(super) struct Draw {
     pub first_triangle: u32,
     pub first_vertex: u32,
     pub mesh: usize,
     pub material: usize,
-    /// The instance turns counter-clockwise triangles into clockwise ones.
+    /// True if the instance turns counter-clockwise triangles into clockwise ones.
     pub mirrored: bool,
-    /// Unit, world; one for each vertex.
+    /// Unit normals, world; one for each vertex.
     pub normals: Option<Vec<Vec3>>,
-    /// Unit, world, w the sign of the bitangent; one for each vertex.
+    /// Unit tangents, world, w the sign of the bitangent; one for each vertex.
     pub tangents: Option<Vec<Vec4>>,
 }
 
-/// A scene with every instance in place.
+/// Scene with every instance in place.
 pub struct PosedScene<'a> {
     pub(super) scene: &'a Scene,
     pub(super) draws: Vec<Draw>,
@@ -52,7 +52,7 @@ impl std::fmt::Debug for PosedScene<'_> {
 }
 
 impl<'a> PosedScene<'a> {
-    /// All but the lights.
+    /// Assembles all parts but the lights.
     pub(super) fn assemble(
         scene: &'a Scene,
         frame_origin: DVec3,
@@ -99,45 +99,45 @@ impl<'a> PosedScene<'a> {
         })
     }
 
-    /// With other rays that pass the backs of single-sided surfaces.
+    /// Sets the rays that pass the backs of single-sided surfaces.
     #[must_use]
     pub fn with_back_faces(self, back_faces: BackFaces) -> Self {
         Self { back_faces, ..self }
     }
 
-    /// Rays that pass the backs of single-sided surfaces.
+    /// Returns the choice of rays that pass the backs of single-sided surfaces.
     pub fn back_faces(&self) -> BackFaces {
         self.back_faces
     }
 
-    /// The back of a triangle, where its surface is single-sided.
+    /// Returns the back of a triangle, if its surface is single-sided.
     pub fn back_of(&self, primitive: u32) -> Option<Side> {
         let draw = self.draw_of(primitive);
         let back = if draw.mirrored { Side::CounterClockwise } else { Side::Clockwise };
         self.material(draw).culls_back.then_some(back)
     }
 
-    /// Posed positions, metres relative to the frame origin, instance after instance.
+    /// Returns the posed positions, metres relative to the frame origin, instance after instance.
     pub fn positions(&self) -> &[[f32; 3]] {
         &self.positions
     }
 
-    /// Three for each triangle, into [`PosedScene::positions`].
+    /// Returns three indices per triangle, into [`PosedScene::positions`].
     pub fn indices(&self) -> &[u32] {
         &self.indices
     }
 
-    /// World, metres.
+    /// Returns the frame origin, world, metres.
     pub fn frame_origin(&self) -> DVec3 {
         self.frame_origin
     }
 
-    /// Global triangle ids are below this.
+    /// Returns the number of triangles; global triangle ids are below it.
     pub fn triangle_count(&self) -> u32 {
         self.draw_of_triangle.len() as u32
     }
 
-    /// The material of a triangle.
+    /// Returns the material of a triangle.
     pub(crate) fn material_of(&self, primitive: u32) -> &'a Material {
         self.material(self.draw_of(primitive))
     }
@@ -158,19 +158,19 @@ impl<'a> PosedScene<'a> {
         &self.scene.meshes[draw.mesh]
     }
 
-    /// Corners of a triangle, metres relative to the frame origin.
+    /// Returns the corners of a triangle, metres relative to the frame origin.
     pub(super) fn vertices(&self, primitive: u32) -> [Vec3; 3] {
         let first = 3 * primitive as usize;
         std::array::from_fn(|corner| Vec3::from(self.positions[self.indices[first + corner] as usize]))
     }
 
-    /// Vertices of a triangle, as indices into its mesh.
+    /// Returns the vertices of a triangle, as indices into its mesh.
     pub(super) fn mesh_vertices(&self, draw: &Draw, primitive: u32) -> [usize; 3] {
         let first = 3 * primitive as usize;
         std::array::from_fn(|corner| (self.indices[first + corner] - draw.first_vertex) as usize)
     }
 
-    /// Share of light left after `distance` metres inside a material.
+    /// Returns the share of light left after `distance` metres inside a material.
     pub(crate) fn transmittance(&self, material: usize, distance: f32) -> Vec3 {
         let material = &self.scene.materials[material];
         let unit = material.attenuation_distance;
@@ -187,7 +187,7 @@ impl<'a> PosedScene<'a> {
     }
 }
 
-/// The textures of a material with what their colours mean.
+/// Iterates over the textures of a material with the encoding of their colours.
 pub(super) fn texture_uses(material: &Material) -> impl Iterator<Item = (TextureRef, Use)> {
     [
         (material.base_color_texture, Use::Color),
@@ -202,7 +202,8 @@ pub(super) fn texture_uses(material: &Material) -> impl Iterator<Item = (Texture
 }
 
 fn posed_normals(mesh: &Mesh, matrix: DMat3) -> Option<Vec<Vec3>> {
-    // The cofactor matrix is the inverse transpose up to the determinant, and exists where that does not.
+    // The cofactor matrix is the inverse transpose up to the determinant, and also exists for singular
+    // matrices.
     let cofactor = DMat3::from_cols(
         matrix.y_axis.cross(matrix.z_axis),
         matrix.z_axis.cross(matrix.x_axis),
@@ -228,7 +229,7 @@ fn posed_tangents(mesh: &Mesh, matrix: DMat3) -> Option<Vec<Vec4>> {
     mesh.tangents.as_ref().map(|tangents| tangents.iter().map(pose).collect())
 }
 
-/// Every index that shading follows without asking again.
+/// Checks every index that shading later uses without a check.
 pub(super) fn check(scene: &Scene) -> Result<(), ReferenceError> {
     let missing = |what: String, count: usize| Err(ReferenceError::Malformed { what, count });
     for instance in &scene.instances {

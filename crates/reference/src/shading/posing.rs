@@ -1,4 +1,4 @@
-//! Puts every instance of a scene in place.
+//! Placement of every instance of a scene.
 
 use glam::DVec3;
 use rasray_scene::Scene;
@@ -10,10 +10,10 @@ use super::{
 };
 
 impl<'a> PosedScene<'a> {
-    /// Transforms positions in f64, takes `frame_origin` (world, metres) off and rounds once.
+    /// Transforms positions in f64, subtracts `frame_origin` (world, metres) and rounds once.
     ///
     /// # Errors
-    /// If the scene names a mesh, material, texture, image or vertex that it does not have.
+    /// An error if the scene refers to a mesh, material, texture, image or vertex that it does not have.
     pub fn new(scene: &'a Scene, frame_origin: DVec3) -> Result<Self, ReferenceError> {
         check(scene)?;
         let mut positions = Vec::new();
@@ -26,11 +26,12 @@ impl<'a> PosedScene<'a> {
         Ok(Self::assemble(scene, frame_origin, positions)?.lit())
     }
 
-    /// As [`PosedScene::new`], with positions that were posed elsewhere, such as those a device holds:
-    /// metres relative to `frame_origin`, one for each vertex of each instance in scene order.
+    /// Makes a posed scene like [`PosedScene::new`], with positions that were posed elsewhere, such as those
+    /// that a device holds: metres relative to `frame_origin`, one for each vertex of each instance in scene
+    /// order.
     ///
     /// # Errors
-    /// As [`PosedScene::new`], and if the number of positions is not that of the scene.
+    /// Errors of [`PosedScene::new`], and an error if the number of positions is not that of the scene.
     pub fn with_positions(
         scene: &'a Scene,
         frame_origin: DVec3,

@@ -2,35 +2,35 @@
 
 use rasray_scene::Sampler;
 
-/// Place on the lens, first number.
+/// Dimension of the position on the lens, first number.
 pub const RANDOM_LENS_U: u32 = 0;
-/// Place on the lens, second number.
+/// Dimension of the position on the lens, second number.
 pub const RANDOM_LENS_V: u32 = 1;
-/// Position inside the pixel, along the row.
+/// Dimension of the position inside the pixel, along the row.
 pub const RANDOM_CAMERA_X: u32 = 2;
-/// Position inside the pixel, down the column.
+/// Dimension of the position inside the pixel, down the column.
 pub const RANDOM_CAMERA_Y: u32 = 3;
 /// First dimension of the first scattering.
 pub const RANDOM_BOUNCE_FIRST: u32 = 4;
-/// Dimensions of one scattering.
+/// Number of dimensions of one scattering.
 pub const RANDOM_BOUNCE_STRIDE: u32 = 12;
-/// Offset: which kind of light.
+/// Offset of the choice of the kind of light.
 pub const RANDOM_LIGHT_KIND: u32 = 0;
-/// Offset: which light of the kind.
+/// Offset of the choice of the light among its kind.
 pub const RANDOM_LIGHT_PICK: u32 = 1;
-/// Offset: place on the light.
+/// Offset of the position on the light, first number.
 pub const RANDOM_LIGHT_U: u32 = 2;
-/// Offset: place on the light.
+/// Offset of the position on the light, second number.
 pub const RANDOM_LIGHT_V: u32 = 3;
-/// Offset: which family of lobes.
+/// Offset of the choice of the family of lobes.
 pub const RANDOM_BSDF_LOBE: u32 = 4;
-/// Offset: reflected or transmitted.
+/// Offset of the choice between reflection and transmission.
 pub const RANDOM_BSDF_SIDE: u32 = 5;
-/// Offset: direction.
+/// Offset of the direction, first number.
 pub const RANDOM_BSDF_U: u32 = 6;
-/// Offset: direction.
+/// Offset of the direction, second number.
 pub const RANDOM_BSDF_V: u32 = 7;
-/// Offset: whether the path goes on.
+/// Offset of the choice to end the path.
 pub const RANDOM_ROULETTE: u32 = 8;
 /// Dimension of the first blended surface that a path hits; the n-th adds n.
 pub const RANDOM_OPACITY_FIRST: u32 = 65536;
@@ -47,33 +47,33 @@ pub struct RandomStream {
 }
 
 impl RandomStream {
-    /// Uniform in [0, 1), a multiple of 2^-24.
+    /// Returns a number uniform in [0, 1), a multiple of 2^-24.
     pub fn float(self, dimension: u32) -> f32 {
         (self.bits(dimension) >> 8) as f32 * (1.0 / 16_777_216.0)
     }
 
-    /// Four numbers of consecutive dimensions.
+    /// Returns four numbers of consecutive dimensions.
     pub fn four(self, dimension: u32) -> [f32; 4] {
         std::array::from_fn(|index| self.float(dimension + index as u32))
     }
 
-    /// 32 random bits: the first word of pcg4d.
+    /// Returns 32 random bits: the first word of pcg4d.
     pub fn bits(self, dimension: u32) -> u32 {
         words([self.pixel, self.sample, dimension, self.seed])[0]
     }
 }
 
-/// The numbers of one sample of one pixel.
+/// Random numbers of one sample of one pixel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Numbers {
-    /// Their source.
+    /// Source of the numbers.
     pub sampler: Sampler,
-    /// Their stream.
+    /// Stream of the numbers.
     pub stream: RandomStream,
 }
 
 impl Numbers {
-    /// Uniform in [0, 1), a multiple of 2^-24.
+    /// Returns a number uniform in [0, 1), a multiple of 2^-24.
     pub fn float(self, dimension: u32) -> f32 {
         match self.sampler {
             Sampler::Sobol => unit(self.group(dimension / 4)[dimension as usize % 4]),
@@ -81,7 +81,7 @@ impl Numbers {
         }
     }
 
-    /// Four numbers of consecutive dimensions.
+    /// Returns four numbers of consecutive dimensions.
     pub fn four(self, dimension: u32) -> [f32; 4] {
         std::array::from_fn(|index| self.float(dimension + index as u32))
     }
@@ -97,14 +97,14 @@ impl Numbers {
     }
 }
 
-/// Mixed into the key of a group, so that groups share no key with [`RandomStream`].
+/// Number that is mixed into the key of a group, so that groups share no key with [`RandomStream`].
 const GROUP_KEY: u32 = 0x8000_0000;
 
 fn unit(bits: u32) -> f32 {
     (bits >> 8) as f32 * (1.0 / 16_777_216.0)
 }
 
-/// pcg4d.
+/// Computes the words of pcg4d.
 fn words(key: [u32; 4]) -> [u32; 4] {
     let mut k = key.map(|word| word.wrapping_mul(1_664_525).wrapping_add(1_013_904_223));
     let round = |k: &mut [u32; 4]| {
@@ -119,7 +119,7 @@ fn words(key: [u32; 4]) -> [u32; 4] {
     k
 }
 
-/// Owen's scrambling: each bit is flipped by a hash of those above it.
+/// Scrambles bits as Owen does: each bit is flipped by a hash of those above it.
 fn scramble(bits: u32, seed: u32) -> u32 {
     let mut x = bits.reverse_bits();
     x ^= x.wrapping_mul(0x3d20_adea);
@@ -130,7 +130,7 @@ fn scramble(bits: u32, seed: u32) -> u32 {
     x.reverse_bits()
 }
 
-/// The first four Sobol dimensions of an index; directions of Joe and Kuo 2008.
+/// Returns the first four Sobol dimensions of an index; directions of Joe and Kuo 2008.
 fn sobol(index: u32) -> [u32; 4] {
     let mut point = [0; 4];
     let mut directions = [[0_u32; 32]; 4];
@@ -152,7 +152,7 @@ fn sobol(index: u32) -> [u32; 4] {
     point
 }
 
-/// Dimension of one use at scattering `bounce`; `offset` is one of the offsets above.
+/// Returns the dimension of one use at scattering `bounce`; `offset` is one of the offsets above.
 pub fn random_dimension(bounce: u32, offset: u32) -> u32 {
     RANDOM_BOUNCE_FIRST + bounce * RANDOM_BOUNCE_STRIDE + offset
 }
@@ -161,7 +161,7 @@ pub fn random_dimension(bounce: u32, offset: u32) -> u32 {
 mod tests {
     use super::*;
 
-    /// The shaders' table is the source; this one is a second copy only for this crate's independence.
+    /// The shaders' table is the source; this one is a second copy that keeps this crate independent.
     #[test]
     fn dimensions_are_those_of_the_shaders() {
         let source = include_str!("../../../../shaders-glsl/scene/random_dimensions.glsl");
@@ -195,8 +195,8 @@ mod tests {
         assert_eq!(found, 16);
     }
 
-    /// Mean, variance and correlation of neighbours in every argument, each within five standard
-    /// deviations of a uniform, independent source.
+    /// The test checks mean, variance and correlation of neighbours in every argument, each within five
+    /// standard deviations of a uniform, independent source.
     #[test]
     fn numbers_are_uniform_and_neighbours_independent() {
         let count = 1 << 16;
@@ -220,9 +220,9 @@ mod tests {
         }
     }
 
-    /// Any power of two of samples of a pixel: each dimension has one in each of as many equal parts, and a
-    /// place has one in each rectangle of as many equal ones. Owen's scrambling keeps that, independent
-    /// numbers do not.
+    /// For any power of two of samples of a pixel, each dimension has one in each of as many equal parts, and
+    /// a pair of dimensions has one in each rectangle of as many equal ones. Owen's scrambling keeps that
+    /// property, independent numbers lack it.
     #[test]
     fn samples_of_a_pixel_are_spread_evenly() {
         for (pixel, group) in [(0, 0), (17, 1), (100_000, 4), (3, 16_384)] {
@@ -249,7 +249,7 @@ mod tests {
         }
     }
 
-    /// Pixels, groups and seeds share nothing: the first sample is uniform over each of them and neighbours
+    /// Pixels, groups and seeds are independent: the first sample is uniform over each of them and neighbours
     /// do not correlate, within five standard deviations of independent numbers.
     #[test]
     fn points_of_neighbours_are_independent() {

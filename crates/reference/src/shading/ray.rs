@@ -4,27 +4,27 @@ use glam::Vec3;
 
 use crate::oracle;
 
-/// A ray with the cone that textures are filtered over.
+/// Ray with the cone over which textures are filtered.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ray {
-    /// Metres relative to the frame origin.
+    /// Origin, metres relative to the frame origin.
     pub origin: Vec3,
-    /// Unit.
+    /// Unit direction.
     pub direction: Vec3,
-    /// Metres; may be infinite.
+    /// Upper end of the range, metres; may be infinite.
     pub t_max: f32,
-    /// A triangle that is never hit.
+    /// Id of a triangle that is never hit.
     pub exclude_primitive: Option<u32>,
-    /// Backs of single-sided surfaces are no hits.
+    /// True if backs of single-sided surfaces are no hits.
     pub culls_back_faces: bool,
-    /// Metres at the origin.
+    /// Width of the cone at the origin, metres.
     pub cone_width: f32,
-    /// Radians, growth of the width per metre.
+    /// Growth of the cone's width per metre, radians.
     pub cone_spread: f32,
 }
 
 impl Ray {
-    /// The ray as the oracle takes it.
+    /// Converts the ray for the oracle.
     pub fn to_oracle(self) -> oracle::Ray {
         oracle::Ray {
             origin: self.origin.to_array(),

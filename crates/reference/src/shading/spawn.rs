@@ -1,10 +1,10 @@
-//! Rays that leave a surface, with origins from which they do not hit it again through rounding.
+//! Rays that leave a surface, with origins from which rounding does not make them hit it again.
 
 use glam::Vec3;
 
 use super::{Ray, Surface};
 
-/// The float next to x in the direction of `offset`. Tiny x stay, so that no subnormal is made.
+/// Returns the float next to x in the direction of `offset`. Tiny x stay, so that no subnormal is made.
 fn outward(x: f32, offset: f32) -> f32 {
     if offset == 0.0 || x.abs() < 1.0e-30 {
         x
@@ -15,7 +15,7 @@ fn outward(x: f32, offset: f32) -> f32 {
     }
 }
 
-/// `position` moved along the normal, to the side `direction` points to, beyond its error.
+/// Returns `position` moved along the normal, to the side `direction` points to, beyond its error.
 pub(super) fn spawn_position(position: Vec3, position_error: f32, normal: Vec3, direction: Vec3) -> Vec3 {
     let absolute = normal.abs();
     let distance = position_error * (absolute.x + absolute.y + absolute.z);
@@ -24,8 +24,8 @@ pub(super) fn spawn_position(position: Vec3, position_error: f32, normal: Vec3, 
     Vec3::new(outward(moved.x, offset.x), outward(moved.y, offset.y), outward(moved.z, offset.z))
 }
 
-/// A ray from the surface along the unit `direction`, `t_max` in metres, with an empty cone, that passes no
-/// backs.
+/// Makes a ray from the surface along the unit `direction`, `t_max` in metres, with an empty cone, that
+/// passes no backs.
 pub fn spawn_ray(surface: &Surface, direction: Vec3, t_max: f32) -> Ray {
     Ray {
         origin: spawn_position(surface.position, surface.position_error, surface.geometric_normal, direction),
@@ -38,7 +38,7 @@ pub fn spawn_ray(surface: &Surface, direction: Vec3, t_max: f32) -> Ray {
     }
 }
 
-/// The open segment to `target`, which has been moved off its own surface. `None` if it is empty.
+/// Makes the open segment to `target`, which has been moved off its own surface. `None` if it is empty.
 pub fn spawn_segment(surface: &Surface, target: Vec3) -> Option<Ray> {
     let mut ray = spawn_ray(surface, target - surface.position, 0.0);
     let towards = target - ray.origin;

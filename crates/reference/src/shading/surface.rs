@@ -1,4 +1,4 @@
-//! From a hit to what is shaded there.
+//! Surfaces: the data of a hit that shading reads.
 
 use glam::{Vec2, Vec3, Vec4, Vec4Swizzles};
 use rasray_scene::{AlphaMode, TextureRef};
@@ -10,58 +10,58 @@ use super::{
     triangle::{barycentric_weights, triangle_normal, triangle_point},
 };
 
-/// A point of a surface that is shaded.
+/// Point of a surface that is shaded.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Surface {
-    /// Metres relative to the frame origin.
+    /// Position, metres relative to the frame origin.
     pub position: Vec3,
     /// Bound of the error of `position` along each axis, metres.
     pub position_error: f32,
-    /// Unit, faces the ray.
+    /// Unit geometric normal, which faces the ray.
     pub geometric_normal: Vec3,
-    /// Global triangle id; `None` for a surface made up without geometry.
+    /// Global triangle id; `None` for a synthetic surface without geometry.
     pub primitive: Option<u32>,
     /// Unit shading normal, on the side of the geometric normal.
     pub normal: Vec3,
-    /// Linear.
+    /// Base colour, linear.
     pub base_color: Vec3,
-    /// In [0, 1].
+    /// Metalness in [0, 1].
     pub metallic: f32,
-    /// W/(sr m^2).
+    /// Emitted radiance, W/(sr m^2).
     pub emission: Vec3,
-    /// Perceptual, in [0, 1].
+    /// Perceptual roughness in [0, 1].
     pub roughness: f32,
     /// Strength of the additional roughness of facets along `rougher`, in [0, 1].
     pub anisotropy: f32,
-    /// Not normalised; read where there is anisotropy.
+    /// Direction in which facets are rougher, not normalised; read if there is anisotropy.
     pub rougher: Vec3,
-    /// In [0, 1].
+    /// Transmission in [0, 1].
     pub transmission: f32,
     /// Index of refraction.
     pub ior: f32,
-    /// 1 unless the material blends.
+    /// Opacity; 1 unless the material blends.
     pub opacity: f32,
-    /// Metres; 0 is a thin wall.
+    /// Thickness, metres; 0 is a thin wall.
     pub thickness: f32,
-    /// Light through it in a straight line, as through a smooth thin wall, is followed apart: scattering
-    /// leaves it out.
+    /// True if light that goes straight through the surface, a smooth thin wall, is followed separately:
+    /// scattering leaves it out.
     pub is_pane: bool,
-    /// Reflects by Ward's lobe where it lets no light through.
+    /// True if the surface reflects by Ward's lobe where it lets no light through.
     pub is_ward: bool,
     /// Strength of the dielectric reflection.
     pub specular: f32,
     /// Colour of the dielectric reflection.
     pub specular_color: Vec3,
-    /// The ray came from the counter-clockwise side.
+    /// True if the ray came from the counter-clockwise side.
     pub front: bool,
-    /// Metres along the ray.
+    /// Distance along the ray, metres.
     pub t: f32,
     /// Index into the scene's materials.
     pub material: Option<usize>,
 }
 
 impl Default for Surface {
-    /// A white diffuse surface at the frame origin that faces +z.
+    /// Makes a white diffuse surface at the frame origin that faces +z.
     fn default() -> Self {
         Self {
             position: Vec3::ZERO,
@@ -90,7 +90,7 @@ impl Default for Surface {
     }
 }
 
-/// A triangle as seen by its textures.
+/// Triangle as seen by its textures.
 pub(super) struct Textured<'a> {
     pub posed: &'a PosedScene<'a>,
     pub draw: &'a Draw,
@@ -121,7 +121,7 @@ impl Textured<'_> {
         if self.twice_area > 0.0 { (ab.x * ac.y - ab.y * ac.x).abs() / self.twice_area } else { 0.0 }
     }
 
-    /// Tangent along growing u, from the vertices or else from the texture coordinates.
+    /// Returns the tangent along growing u, from the vertices or else from the texture coordinates.
     pub fn tangent(&self, uv_set: u32, ab: Vec3, ac: Vec3) -> Vec4 {
         let tangent = attributes::tangent(self.draw, self.triangle, self.weights);
         if tangent.xyz().length_squared() > 0.0 {
@@ -151,8 +151,8 @@ fn mapped_normal(normal: Vec3, tangent: Vec4, texel: Vec3, scale: f32) -> Vec3 {
     if mapped.length_squared() > 0.0 { mapped / mapped.length() } else { normal }
 }
 
-/// The shading normal on the side of the geometric normal. It may face away from the ray; facets lie around
-/// one that does not.
+/// Returns the shading normal on the side of the geometric normal. It may face away from the ray; facets then
+/// lie around a bent normal that does not.
 fn shading_normal(interpolated: Vec3, geometric_normal: Vec3) -> Vec3 {
     let squared = interpolated.length_squared();
     if !(squared > 0.0) {
@@ -164,8 +164,8 @@ fn shading_normal(interpolated: Vec3, geometric_normal: Vec3) -> Vec3 {
 }
 
 impl PosedScene<'_> {
-    /// Surface that `ray` hits at `t` metres on a triangle; `barycentrics` are the weights of vertices 1 and
-    /// 2.
+    /// Returns the surface that `ray` hits at `t` metres on a triangle; `barycentrics` are the weights of
+    /// vertices 1 and 2.
     pub fn surface(&self, ray: &Ray, t: f32, primitive: u32, barycentrics: Vec2) -> Surface {
         let draw = self.draw_of(primitive);
         let material = self.material(draw);
@@ -183,12 +183,12 @@ impl PosedScene<'_> {
         let geometric_normal = if counter_clockwise { normal } else { -normal };
         let front = counter_clockwise != draw.mirrored;
 
-        // The smaller axis of the cone's ellipse.
+        // The footprint is the smaller axis of the cone's ellipse.
         let footprint = ray.cone_width + ray.cone_spread * t;
         let textured = Textured { posed: self, draw, triangle, weights, twice_area, footprint };
 
         let mut interpolated = attributes::normal(draw, triangle, weights);
-        // Attributes describe the front; seen from behind they are turned.
+        // Attributes describe the front; for a ray from behind they are flipped.
         let facing = if front { 1.0 } else { -1.0 };
         if let Some(reference) = &material.normal_texture {
             let whole = interpolated.length_squared() > 0.0;
@@ -236,8 +236,8 @@ impl PosedScene<'_> {
         self.with_anisotropy(surface)
     }
 
-    /// Radiance that leaves a point of a triangle towards a light sample: level 0; what is cut out
-    /// emits nothing, what is blended emits in proportion to its opacity.
+    /// Returns the radiance that leaves a point of a triangle towards a light sample, from texture level 0.
+    /// Points that a mask cuts out emit nothing, blended ones emit in proportion to their opacity.
     pub(super) fn emission_at(&self, primitive: u32, barycentrics: Vec2, front: bool) -> Vec3 {
         let draw = self.draw_of(primitive);
         let material = self.material(draw);

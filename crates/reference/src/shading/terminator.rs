@@ -1,4 +1,4 @@
-//! The surface that light samples see in place of a smooth triangle.
+//! Surface that light samples use in place of a smooth triangle.
 
 use glam::Vec3;
 
@@ -9,8 +9,8 @@ use super::{
 };
 
 impl PosedScene<'_> {
-    /// The surface on the smooth shape that the normals of its triangle's vertices suggest, as `o` sees it;
-    /// the same one where there is none.
+    /// Returns the surface on the smooth shape that the normals of its triangle's vertices suggest, as `o`
+    /// sees it; the same surface if there is no such shape.
     pub(crate) fn terminator_surface(&self, surface: &Surface, o: Vec3) -> Surface {
         let Some(primitive) = surface.primitive.filter(|_| !(surface.transmission > 0.0)) else {
             return *surface;

@@ -8,9 +8,9 @@ use rasray_scene::{Filter, Image, Scene, TextureRef, Wrap};
 /// Encoding of the red, green and blue of an image.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Use {
-    /// sRGB.
+    /// sRGB encoding.
     Color,
-    /// As stored.
+    /// Linear encoding: values as stored.
     Linear,
 }
 
@@ -28,7 +28,7 @@ struct Level {
     rgba8: Vec<u8>,
 }
 
-/// Exact inverse of the sRGB curve.
+/// Decodes sRGB by the exact inverse of its curve.
 pub fn srgb_decode(encoded: f32) -> f32 {
     if encoded <= 0.04045 { encoded / 12.92 } else { ((encoded + 0.055) / 1.055).powf(2.4) }
 }
@@ -42,7 +42,7 @@ impl<'a> TextureTable<'a> {
         Self { scene, levels: HashMap::new() }
     }
 
-    /// Makes the levels of a texture. Indices were checked.
+    /// Makes the levels of a texture. Indices must have been checked.
     pub fn prepare(&mut self, reference: TextureRef, usage: Use) {
         let image = &self.scene.images[self.scene.textures[reference.texture].image];
         self.levels
@@ -50,7 +50,7 @@ impl<'a> TextureTable<'a> {
             .or_insert_with(|| levels(image, usage));
     }
 
-    /// RGBA, colour decoded to linear; white without a texture.
+    /// Returns the RGBA of a texture, colour decoded to linear; white without a texture.
     pub fn sample(&self, reference: Option<&TextureRef>, usage: Use, uv: Vec2, level: f32) -> Vec4 {
         let Some(reference) = reference else { return Vec4::ONE };
         let texture = &self.scene.textures[reference.texture];
@@ -70,7 +70,7 @@ impl<'a> TextureTable<'a> {
         if used > lower { value.lerp(at(lower as usize + 1), used - lower) } else { value }
     }
 
-    /// Level for a footprint of `footprint` metres across on a surface whose texture coordinates
+    /// Returns the level for a footprint of `footprint` metres across on a surface whose texture coordinates
     /// (before the transform) cover `uv_area` per square metre.
     pub fn level(&self, reference: Option<&TextureRef>, uv_area: f32, footprint: f32) -> f32 {
         let Some(reference) = reference else { return 0.0 };
@@ -83,13 +83,13 @@ impl<'a> TextureTable<'a> {
         if texels > 0.0 { 0.5 * texels.log2() + footprint.log2() } else { 0.0 }
     }
 
-    /// Texels of level 0 across and down.
+    /// Returns the numbers of texels of level 0 across and down.
     pub fn size(&self, reference: &TextureRef) -> DVec2 {
         let image = &self.scene.images[self.scene.textures[reference.texture].image];
         DVec2::new(f64::from(image.width), f64::from(image.height))
     }
 
-    /// The texel of level 0 that holds a place, whatever the filter; `uv` has been transformed.
+    /// Returns the texel of level 0 at a position, for any filter; `uv` has been transformed.
     pub fn nearest(&self, reference: &TextureRef, usage: Use, uv: DVec2) -> Vec3 {
         let texture = &self.scene.textures[reference.texture];
         let level = &self.levels[&(texture.image, usage)][0];

@@ -2,22 +2,22 @@
 
 use glam::{Vec2, Vec3};
 
-/// gamma_7 of pbrt: bound of the relative error of a sum of three products and the weights' own error.
+/// Bound gamma_7 of pbrt: the relative error of a sum of three products and the weights' own error.
 const POSITION_ERROR_FACTOR: f32 = 4.172_326_9e-7;
 
-/// Weights of the three vertices from those of vertices 1 and 2.
+/// Returns the weights of the three vertices from those of vertices 1 and 2.
 pub fn barycentric_weights(barycentrics: Vec2) -> Vec3 {
     Vec3::new(1.0 - barycentrics.x - barycentrics.y, barycentrics.x, barycentrics.y)
 }
 
-/// A point of the triangle and a bound of its error along each axis, metres.
+/// Returns a point of the triangle and a bound of its error along each axis, metres.
 pub fn triangle_point(weights: Vec3, [a, b, c]: [Vec3; 3]) -> (Vec3, f32) {
     let (from_a, from_b, from_c) = (weights.x * a, weights.y * b, weights.z * c);
     let magnitude = from_a.abs() + from_b.abs() + from_c.abs();
     (from_a + from_b + from_c, POSITION_ERROR_FACTOR * magnitude.max_element())
 }
 
-/// Unit normal of the counter-clockwise side and twice the area, from two edges; zero where there is
+/// Returns the unit normal of the counter-clockwise side and twice the area, from two edges; zero if there is
 /// no area.
 pub fn triangle_normal(ab: Vec3, ac: Vec3) -> (Vec3, f32) {
     let scale = ab.abs().max(ac.abs()).max_element();
@@ -32,7 +32,7 @@ pub fn triangle_normal(ab: Vec3, ac: Vec3) -> (Vec3, f32) {
     (normal / size, size * scale * scale)
 }
 
-/// Weights of vertices 1 and 2 of a point of a triangle's plane.
+/// Returns the weights of vertices 1 and 2 of a point of a triangle's plane.
 pub fn barycentrics(point: Vec3, [a, b, c]: [Vec3; 3]) -> Vec2 {
     let (ab, ac) = (b - a, c - a);
     let normal = ab.cross(ac);

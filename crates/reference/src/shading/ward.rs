@@ -4,9 +4,9 @@ use std::f32::consts::PI;
 
 use glam::{Vec2, Vec3};
 
-/// Distribution of half vectors, 1/sr.
+/// Returns the distribution of half vectors, 1/sr.
 pub fn ward_distribution(h: Vec3, alpha: Vec2) -> f32 {
-    // Beyond, the Gaussian is 0.
+    // At larger angles the Gaussian is 0.
     if !(h.z > 1.0e-4) {
         return 0.0;
     }
@@ -14,7 +14,7 @@ pub fn ward_distribution(h: Vec3, alpha: Vec2) -> f32 {
     (-slope.length_squared()).exp() / (PI * alpha.x * alpha.y * h.z.powi(4))
 }
 
-/// A half vector, with the density D(h) h.z.
+/// Returns a half vector, with the density D(h) h.z.
 pub fn ward_half(alpha: Vec2, random: Vec2) -> Vec3 {
     let radius = (-(1.0 - random.y).ln()).sqrt();
     let (sine, cosine) = (2.0 * PI * random.x).sin_cos();

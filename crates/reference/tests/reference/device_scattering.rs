@@ -1,4 +1,4 @@
-//! The scattering functions and random numbers of the device against those of this crate, call by call.
+//! Scattering functions and random numbers of the device against those of this crate, call by call.
 
 use std::mem::offset_of;
 
@@ -17,10 +17,10 @@ use rasray_shaders_glsl::records::Frame;
 
 const SEED: u32 = 77;
 const CASES: u32 = 6000;
-/// Words of a case and of a result in the kernel.
+/// Numbers of words of a case and of a result in the kernel.
 const CASE_WORDS: usize = 41;
 const RESULT_WORDS: usize = 16;
-/// Words of the frame, and where the fields lie that are read.
+/// Number of words of the frame, and offsets of the fields that are read.
 const FRAME_WORDS: usize = size_of::<Frame>() / size_of::<u32>();
 const FRAME_SEED: usize = offset_of!(Frame, seed) / size_of::<u32>();
 const FRAME_SAMPLING: usize = offset_of!(Frame, sampling) / size_of::<u32>();
@@ -86,7 +86,8 @@ fn cases() -> Vec<Case> {
     (0..CASES).map(make).collect()
 }
 
-/// One for every index, strength and colour of the dielectric's reflection; each may be a rough volume.
+/// Makes tables for every index, strength and colour of the dielectric's reflection; each may be a rough
+/// volume.
 fn tables() -> SceneTables {
     let mut scene = Scene::default();
     for ior in IORS {
@@ -185,8 +186,8 @@ fn flags(sample: &BsdfSample) -> u32 {
         | if sample.transmitted { SAMPLE_TRANSMITTED } else { 0 }
 }
 
-/// Cases whose results are not those of the reference for `change`d surfaces; also how many were
-/// scattered at all, and how many of these through the surface.
+/// Returns the cases whose results are not those of the reference for `change`d surfaces; also the number of
+/// scattered cases, and how many of these went through the surface.
 fn compare(
     cases: &[Case],
     results: &[u32],
@@ -233,10 +234,10 @@ fn scattering_on_the_device_is_that_of_the_reference() {
     let results = run(&cases, sampler, &packed);
     let (differ, sampled, transmitted) = compare(&cases, &results, sampler, |surface| surface);
     assert!(sampled > CASES / 2 && transmitted > CASES / 10, "{sampled} {transmitted}: too few to tell");
-    // A number next to a threshold, or a half vector near zero, may fall either way.
+    // A number next to a threshold, or a half vector near zero, may be decided either way.
     assert!(differ.len() < 12, "{} cases differ: {:?}", differ.len(), &differ[..differ.len().min(8)]);
 
-    // Surfaces that are one percent off are told apart.
+    // The comparison detects surfaces that are one percent off.
     type Change = fn(Surface) -> Surface;
     let mutants: [Change; 4] = [
         |surface| Surface { roughness: surface.roughness * 0.99, ..surface },
@@ -248,7 +249,7 @@ fn scattering_on_the_device_is_that_of_the_reference() {
         let (differ, ..) = compare(&cases, &results, sampler, mutant);
         assert!(differ.len() > 200, "mutant {number}: only {} cases differ", differ.len());
     }
-    // So is rough glass without its tables.
+    // The comparison also detects rough glass without its tables.
     packed.materials.iter_mut().for_each(|material| material.albedo = ATTRIBUTE_NONE);
     let (differ, ..) = compare(&cases, &run(&cases, sampler, &packed), sampler, |surface| surface);
     assert!(differ.len() > 200, "only {} cases differ without tables", differ.len());

@@ -1,4 +1,4 @@
-//! Tables of rough glass as they are uploaded against those of this crate.
+//! Uploaded tables of rough glass against those of this crate.
 
 use rasray_gpu_scene::{Parts, SceneTables};
 use rasray_reference::shading::glass_albedo::{self, Block};
@@ -37,7 +37,7 @@ fn uploaded_tables_are_those_of_the_reference() {
     }
 }
 
-/// Equal glasses share a table, and nothing else has one.
+/// Equal glasses share a table, and no other material has one.
 #[test]
 fn only_rough_volumes_have_tables() {
     let glass = volume(1.5, 1.0);
@@ -58,6 +58,6 @@ fn only_rough_volumes_have_tables() {
     let words = 3 * GLASS_ROWS * GLASS_ROW_WORDS;
     assert_eq!(some.materials.iter().map(|material| material.albedo).collect::<Vec<_>>(), [0, words, 0]);
     assert_eq!(some.vertex_attributes.len(), 2 * words as usize);
-    // Rays that only ask what is visible read none.
+    // Visibility rays read no table.
     assert!(tables(vec![glass], &Parts::VISIBILITY).vertex_attributes.is_empty());
 }

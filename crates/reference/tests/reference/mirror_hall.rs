@@ -1,4 +1,4 @@
-//! The share of mirrors that `mirror-hall` promises, counted with the exact oracle.
+//! Share of mirrors that `mirror-hall` promises, counted with the exact oracle.
 
 use glam::{DVec3, Vec2};
 use rasray_reference::oracle::Oracle;
@@ -6,7 +6,8 @@ use rasray_reference::shading::{PosedScene, View, camera_ray};
 use rasray_scene::Sampler;
 use rasray_scene::builtin::builtin;
 
-/// Percent of the pixels of a picture of the scene's camera whose middle shows a perfect mirror first.
+/// Returns the percentage of the pixels of a picture of the scene's camera whose middle shows a perfect
+/// mirror at the first hit.
 fn share_of_mirrors(spec: &str, [width, height]: [u32; 2]) -> f64 {
     let scene = builtin(spec).expect("built in").expect("a share in range");
     let posed = PosedScene::new(&scene, DVec3::ZERO).expect("well formed");

@@ -1,4 +1,4 @@
-//! The classes of the oracle on inputs whose class is known by construction, and the replay of a ray.
+//! Classes of the oracle on inputs whose class is known by construction, and the replay of a ray.
 
 use rasray_reference::oracle::{Oracle, OracleReplay, Outcome, Ray, TestClass};
 
@@ -16,7 +16,8 @@ fn ahead(x: f32, y: f32) -> Ray {
     Ray::new([x, y, 0.0], [0.0, 0.0, 1.0])
 }
 
-/// The class of the only triangle, how many of its edges the ray intersects exactly, and what is admissible.
+/// Returns the class of the only triangle, the number of its edges that the ray intersects exactly, true if
+/// the ray is ambiguous, and true if a miss is admissible.
 fn evaluate(triangle: Triangle, ray: &Ray) -> (TestClass, usize, bool, bool) {
     let replay = replay(&[triangle], ray);
     let (class, zeros) = replay.tests.first().map_or((TestClass::Outside, 0), |tested| {
@@ -25,7 +26,7 @@ fn evaluate(triangle: Triangle, ray: &Ray) -> (TestClass, usize, bool, bool) {
     (class, zeros, replay.verdict.ambiguous, replay.verdict.miss_allowed)
 }
 
-/// (ray, class, edges intersected exactly, ambiguous, a miss is admissible)
+/// Rows of (ray, class, edges intersected exactly, ambiguous, a miss is admissible).
 fn table() -> Vec<(&'static str, Ray, TestClass, usize, bool, bool)> {
     // Head-on nothing is rounded, so that a unit in the last place decides. At a slant it does not.
     let slanted = |y: f32| Ray::new([0.3, 0.1, 0.0], [-0.3, y, 5.0]);
@@ -67,7 +68,8 @@ fn fits(triangle: Triangle) -> bool {
     })
 }
 
-/// The table tells the true triangle from one whose vertices are off by a few units in the last place.
+/// The table distinguishes the true triangle from one whose vertices are off by a few units in the last
+/// place.
 #[test]
 fn a_triangle_moved_by_rounding_does_not_fit_the_table() {
     assert!(fits(TRIANGLE));
@@ -81,7 +83,7 @@ fn a_triangle_moved_by_rounding_does_not_fit_the_table() {
     }
 }
 
-/// The edge determinant as double precision has it without care.
+/// Returns the sign of the edge determinant in plain double precision.
 fn rounded_sign(ray: &Ray, a: [f32; 3], b: [f32; 3]) -> i32 {
     let (d, o) = (ray.direction.map(f64::from), ray.origin.map(f64::from));
     let relative = |p: [f32; 3]| -> [f64; 3] { std::array::from_fn(|axis| f64::from(p[axis]) - o[axis]) };
@@ -119,7 +121,7 @@ fn a_replay_lists_what_was_tested_and_ends_in_the_verdict() {
     assert!(!replay.nodes.is_empty() && replay.nodes[0].node == 0, "a hierarchy is used");
     let nearest = replay.tests.iter().find(|tested| tested.primitive == 99).expect("the hit was tested");
     assert_eq!((nearest.class, nearest.t.map(|[t, ..]| t)), (TestClass::Certain, Some(1.0)));
-    // The far walls are cut off, not tested one by one.
+    // The far walls are culled as a whole, not tested one by one.
     assert!(replay.tests.len() + replay.outside < 20, "{replay}");
     let text = replay.to_string();
     assert!(text.contains("triangle 99: edges") && text.ends_with("hit: triangle 99, t 1\n"), "{text}");
@@ -128,7 +130,7 @@ fn a_replay_lists_what_was_tested_and_ends_in_the_verdict() {
     assert!(miss.to_string().ends_with("miss\n"));
 }
 
-/// The classes add up to the verdict: the nearest hit among them is the outcome.
+/// The classes match the verdict: the nearest hit among them is the outcome.
 #[test]
 fn the_classes_agree_with_the_verdict() {
     let mut triangles = Vec::new();

@@ -9,7 +9,8 @@ fn floor() -> rasray_scene::Mesh {
     quad(Vec3::new(-50.0, 0.0, 50.0), Vec3::X * 100.0, Vec3::NEG_Z * 100.0, 0)
 }
 
-/// Ambient light at a point on a plane at `distance` from where a sphere of radius 1 touches it.
+/// Returns the ambient light at a point of a plane, at `distance` from the point where a sphere of radius 1
+/// touches the plane.
 fn next_to_sphere(distance: f64) -> f64 {
     1.0 - (1.0 + distance * distance).powf(-1.5)
 }
@@ -17,12 +18,12 @@ fn next_to_sphere(distance: f64) -> f64 {
 #[test]
 fn visibility_next_to_a_sphere_has_its_closed_form() {
     let mut ball = sphere(5, false, false, 0);
-    // Inscribed facets are a little inside the sphere; half of the deviation is put outside.
+    // Inscribed facets are a little inside the sphere; scaling moves half of the deviation outside.
     ball.positions.iter_mut().for_each(|p| *p = [p[0] * 1.0003, p[1] * 1.0003 + 1.0, p[2] * 1.0003]);
     let scene = scene(vec![diffuse(0.5)], vec![floor(), ball]);
     let posed = PosedScene::new(&scene, glam::DVec3::ZERO).expect("valid");
     for distance in [0.5, 1.0, 2.0] {
-        // Low from the side: the sphere does not hide the point.
+        // The eye looks from low at the side, so that the sphere does not hide the point.
         let eye = [distance + 10.0 * 0.94, 10.0 * 0.342, 0.0];
         let view = parallel_view(eye, [distance, 0.0, 0.0], 1.0e-3, 16, 96);
         let image = posed.render_ambient_occlusion(&view, f32::INFINITY).expect("rendered");
@@ -45,7 +46,7 @@ fn a_long_wall_hides_its_share_and_only_within_range() {
     let scene = scene(vec![diffuse(0.5)], vec![floor(), wall]);
     let posed = PosedScene::new(&scene, glam::DVec3::ZERO).expect("valid");
     let view = parallel_view([1.0, 5.0, 0.0], [1.0, 0.0, 0.0], 1.0e-3, 16, 64);
-    // Occluded: (1 - x / sqrt(x^2 + h^2)) / 2 at x = h = 1.
+    // The occluded share is (1 - x / sqrt(x^2 + h^2)) / 2 at x = h = 1.
     let image = posed.render_ambient_occlusion(&view, f32::INFINITY).expect("rendered");
     assert_mean(&image, 1.0 - 0.146_447, 0.0, 0.02);
     let near = posed.render_ambient_occlusion(&view, 0.999).expect("rendered");

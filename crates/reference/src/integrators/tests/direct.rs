@@ -76,7 +76,7 @@ fn a_wall_between_light_and_floor_casts_a_shadow() {
     scene.meshes.push(quad(Vec3::new(1.0, 0.0, -1.0), Vec3::Z * 2.0, Vec3::Y * 1.5, 0));
     scene.instances.push(rasray_scene::Instance { mesh: 1, ..scene.instances[0].clone() });
     assert_eq!(direct(&scene, [2.0, 0.0, 0.0]), 0.0);
-    // The light stands beyond the wall's top edge as seen from further out.
+    // From further out the light stands above the wall's top edge.
     assert!(direct(&scene, [4.9, 0.0, 0.0]) > 0.0);
 }
 
@@ -88,12 +88,12 @@ fn squares(double_sided: bool, flipped: bool) -> rasray_scene::Scene {
     scene(vec![diffuse(1.0), emitter], vec![receiver, quad(corner, u, v, 1)])
 }
 
-/// Mean radiance of a white square below an emitting one is their form factor.
+/// The mean radiance of a white square below an emitting one is their form factor.
 #[test]
 fn parallel_squares_exchange_their_form_factor() {
     let view = parallel_view([0.0, 0.5, 0.0], [0.0; 3], 0.5, 32, 16);
     for (double_sided, flipped, seen) in [(false, false, true), (true, true, true), (false, true, false)] {
-        // X x Z points down: not flipped, the front looks at the receiver.
+        // X x Z points down: if not flipped, the front faces the receiver.
         let scene = squares(double_sided, flipped);
         let image =
             PosedScene::new(&scene, DVec3::ZERO).expect("valid").render_path(&view, 1).expect("rendered");
@@ -105,7 +105,7 @@ fn parallel_squares_exchange_their_form_factor() {
     }
 }
 
-/// A texture that blackens half of the emitter takes that half's share away.
+/// A texture that blackens half of the emitter removes that half's share.
 #[test]
 fn textured_emission_is_sampled_without_bias() {
     let mut scene = squares(false, false);
@@ -128,9 +128,9 @@ fn textured_emission_is_sampled_without_bias() {
     let view = parallel_view([0.0, 0.5, 0.0], [0.0; 3], 0.5, 32, 16);
     let posed = PosedScene::new(&scene, DVec3::ZERO).expect("valid");
     let image = posed.render_path(&view, 1).expect("rendered");
-    // By symmetry each half sends half to the square.
+    // By symmetry each half of the emitter sends half to the square.
     assert_mean(&image, 0.199_824_896 / 2.0, 0.0, 0.08);
-    // Below the bright half it is brighter; which way the picture is turned does not matter.
+    // The square is brighter below the bright half, for any rotation of the picture.
     let sum = |pixels: &dyn Fn(usize, usize) -> bool| -> f32 {
         (0..32 * 32).filter(|p| pixels(p / 32, p % 32)).map(|p| image.pixels[p][0]).sum()
     };
@@ -139,7 +139,7 @@ fn textured_emission_is_sampled_without_bias() {
     assert!((columns - 1.0).abs().max((rows - 1.0).abs()) > 0.1, "{columns} {rows}");
 }
 
-/// A glossy receiver finds the emitter by scattering, a diffuse one by light samples; with both weighted the
+/// A glossy receiver finds the emitter by scattering, a diffuse one by light samples. With both weighted the
 /// image is the same as with scattering alone, here through an emitter that is not in the light list.
 #[test]
 fn light_samples_and_scattering_agree() {

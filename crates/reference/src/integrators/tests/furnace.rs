@@ -26,7 +26,7 @@ fn an_enclosure_adds_up_the_series_of_its_albedo() {
     }
 }
 
-/// Without light samples nothing changes but the noise: both techniques share the light by weight.
+/// Without light samples only the noise changes: both techniques share the light by weight.
 #[test]
 fn a_lambertian_surface_under_a_white_sky_shows_its_albedo() {
     let mut scene = scene(vec![diffuse(0.6)], vec![sphere(3, false, false, 0)]);
@@ -34,7 +34,7 @@ fn a_lambertian_surface_under_a_white_sky_shows_its_albedo() {
     let view = view([0.0, 0.0, 5.0], [0.0; 3], 8, 128);
     let image =
         PosedScene::new(&scene, glam::DVec3::ZERO).expect("valid").render_path(&view, 1).expect("rendered");
-    // Pixels at the corners may miss the sphere: only those on it are compared.
+    // Pixels at the corners may miss the sphere: only pixels on it are compared.
     let mut inner = image.clone();
     inner.pixels = (0..64)
         .filter(|p| (2..6).contains(&(p % 8)) && (2..6).contains(&(p / 8)))
@@ -45,7 +45,7 @@ fn a_lambertian_surface_under_a_white_sky_shows_its_albedo() {
 
 #[test]
 fn a_sphere_around_a_point_light_is_one() {
-    // Direct light I / r^2 = pi gives rho; each further bounce rho times as much: 1 - 2^-n in all.
+    // Direct light I / r^2 = pi gives rho; each further bounce gives rho times as much: 1 - 2^-n in all.
     let mut scene = scene(vec![diffuse(0.5)], vec![sphere(4, true, false, 0)]);
     scene.lights.push(Light::Point {
         position: glam::DVec3::ZERO,
@@ -71,12 +71,12 @@ fn lossless_mirrors_and_glass_vanish_in_a_white_sky() {
         scene.environment = Environment::Constant([1.0; 3]);
         let posed = PosedScene::new(&scene, glam::DVec3::ZERO).expect("valid");
         let image = posed.render_path(&view([0.0, 0.0, 4.0], [0.0; 3], 12, 64), 400).expect("rendered");
-        // Roulette ends five percent of the paths after the third scattering and makes up for it.
+        // Roulette ends five percent of the paths after the third scattering and compensates for it.
         assert_mean(&image, 1.0, 1.0e-3, 0.03);
     }
 }
 
-/// Rough glass that absorbs nothing sends on all light, clear and milky.
+/// Rough glass without absorption reflects and transmits all light, clear and milky.
 #[test]
 fn rough_glass_vanishes_in_a_white_sky() {
     for (roughness, transmission) in [(0.2, 1.0), (0.4, 1.0), (1.0, 1.0), (0.4, 0.5), (1.0, 0.5)] {
@@ -85,11 +85,11 @@ fn rough_glass_vanishes_in_a_white_sky() {
         let mut scene = scene(vec![material], vec![sphere(4, false, true, 0)]);
         scene.environment = Environment::Constant([1.0; 3]);
         let posed = PosedScene::new(&scene, glam::DVec3::ZERO).expect("valid");
-        // Every pixel is on the ball.
+        // Every pixel shows the ball.
         let image = posed
             .render_path(&parallel_view([0.0, 0.0, 4.0], [0.0; 3], 0.65, 16, 256), 400)
             .expect("rendered");
-        // Roulette ends five percent of the paths after the third scattering and makes up for it.
+        // Roulette ends five percent of the paths after the third scattering and compensates for it.
         assert_mean(&image, 1.0, 5.0e-3, 0.05);
     }
 }

@@ -39,13 +39,13 @@ fn a_medium_dims_light_by_the_way_through_it() {
     }
 }
 
-/// Light from behind a slab of glass, mirrored to and fro inside: (1 - R) / (1 + R), R = 0.04.
+/// A slab of glass transmits light with reflections between its sides: (1 - R) / (1 + R), R = 0.04.
 #[test]
 fn a_slab_of_glass_passes_its_share() {
     let glass =
         Material { metallic: 0.0, roughness: 0.0, transmission: 1.0, thickness: 1.0, ..Material::default() };
     let mut scene = white_sky(glass, cube(0.5, false, 0));
-    // Only the lower half of the sky shines, and the view looks straight down.
+    // Only the lower half of the sky emits, and the view looks straight down.
     scene.environment = Environment::LatLong { width: 1, height: 2, radiance: vec![[0.0; 3], [1.0; 3]] };
     let posed = PosedScene::new(&scene, DVec3::ZERO).expect("valid");
     let down = crate::testing::parallel_view([0.0, 4.0, 0.0], [0.0; 3], 0.3, 32, 16);
@@ -62,8 +62,8 @@ fn blended_surfaces_let_their_share_pass() {
     assert_mean(&image, 0.7, 0.0, 0.04);
 }
 
-/// A floor behind a blended sheet is lit through it, by light samples and by scattered rays: it sees the sky
-/// with 0.7 of its light, and is itself seen with 0.7.
+/// A floor behind a blended sheet is lit through it, by light samples and by scattered rays: it receives 0.7
+/// of the sky's light, and 0.7 of its own light is seen.
 #[test]
 fn light_through_a_blended_sheet_is_counted_once() {
     let blended = Material { base_color: [0.0, 0.0, 0.0, 0.3], alpha_mode: AlphaMode::Blend, ..diffuse(0.0) };
@@ -77,7 +77,8 @@ fn light_through_a_blended_sheet_is_counted_once() {
     assert_mean(&image, 0.7 * 0.7, 0.002, 0.04);
 }
 
-/// The sun above a pane and two blended sheets, seen from below them: what each lets pass, without noise.
+/// The sun stands above a pane and two blended sheets, seen from below: the test computes the light that each
+/// transmits, without noise.
 #[test]
 fn the_sun_shines_through_what_lets_it_pass() {
     let blended = Material { base_color: [0.0, 0.0, 0.0, 0.3], alpha_mode: AlphaMode::Blend, ..diffuse(0.0) };
@@ -109,7 +110,7 @@ fn the_sun_shines_through_what_lets_it_pass() {
 }
 
 /// Light samples choose a blended emitter, which sends its emission times its opacity; a scattered ray hits
-/// it as often as its opacity says. One that is clear all over is no light.
+/// the emitter with a probability of its opacity. An emitter that is clear all over is no light.
 #[test]
 fn blended_emitters_are_sampled_as_their_opacity_says() {
     let emitter = Material { base_color: [0.0, 0.0, 0.0, 0.5], emission: [1.0; 3], ..diffuse(0.0) };
@@ -134,7 +135,7 @@ fn blended_emitters_are_sampled_as_their_opacity_says() {
         scene.materials[0].base_color[3] = alpha;
         let posed = PosedScene::new(&scene, DVec3::ZERO).expect("valid");
         let surface = posed.surface(&down, 0.5, 12, Vec2::new(0.25, 0.5));
-        // Face x = 1 of the box: triangles 0 and 1, the floor's are 12 and 13.
+        // Face x = 1 of the box has triangles 0 and 1; the floor has 12 and 13.
         let pdf = posed.light_pdf_emitter(0, surface.position, Vec3::new(1.0, 0.25, 0.0));
         let chosen = (0..64).find_map(|i| {
             let u = (i as f32 + 0.5) / 64.0;

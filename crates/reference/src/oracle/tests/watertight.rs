@@ -24,7 +24,7 @@ fn a_shared_diagonal_does_not_leak() {
                 random.between(-2.0, 3.0) as f32,
                 random.between(-3.0, 1.0) as f32,
             ];
-            // The ends of the diagonal are corners of an open mesh, where rounding may pass by.
+            // The ends of the diagonal are corners of an open mesh, where rounding may let the ray pass by.
             (1..1024).map(move |k| Ray::towards(origin, [k as f32 / 1024.0, k as f32 / 1024.0, 2.0]))
         })
         .collect();

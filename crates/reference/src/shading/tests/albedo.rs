@@ -8,10 +8,10 @@ use crate::shading::{
     microfacet::{fresnel_power, ggx_visibility, ggx_visibility_one, ggx_visible_normal},
 };
 
-/// The polynomials against the integrals they were fitted to.
+/// The polynomials are compared with the integrals to which they were fitted.
 #[test]
 fn albedos_are_those_of_the_integrals() {
-    // Samples of visible normals: facets of reflectance 1 and (1 - x)^5.
+    // The integrals use samples of visible normals: facets of reflectance 1 and (1 - x)^5.
     let integrals = |cosine: f32, alpha: f32| {
         let o = Vec3::new((1.0 - cosine * cosine).sqrt(), 0.0, cosine);
         let (steps, mut sums) = (200, [0.0_f64; 2]);
@@ -37,7 +37,7 @@ fn albedos_are_those_of_the_integrals() {
             let error = f64::from(albedo::schlick(cosine, alpha, loss)) - schlick;
             (least, most) = (least.min(error), most.max(error));
         }
-        // The means are those of the polynomials, so that what is lost and what is returned agree.
+        // The means are those of the polynomials, so that lost and returned light agree.
         let (steps, mut means) = (2000, [0.0_f64; 2]);
         for step in 0..steps {
             let cosine = (step as f32 + 0.5) / steps as f32;
@@ -51,7 +51,7 @@ fn albedos_are_those_of_the_integrals() {
     assert!(loss_error < 0.003 && least > -0.004 && most < 0.009, "{loss_error} {least} {most}");
 }
 
-/// The tables against integrals over the slopes of facets.
+/// The tables are compared with integrals over the slopes of facets.
 #[test]
 fn glass_tables_are_those_of_the_integrals() {
     let share = |interface: Interface, cosine: f64, alpha: f64| {
@@ -69,7 +69,8 @@ fn glass_tables_are_those_of_the_integrals() {
                 continue;
             }
             let weight = 4.0 * place * o.dot(h) / (up * f64::from(rows * columns));
-            // Both ends of the height-correlated masking; the facet's own share is in the weight.
+            // The factor has both ends of the height-correlated masking; the facet's own share is in the
+            // weight.
             let visible = |x: f64| x / (cosine * root(x) + x * root(cosine)) * weight;
             let fresnel = interface.fresnel(o.dot(h));
             let mirrored = 2.0 * o.dot(h) * h - o;
@@ -105,7 +106,7 @@ fn glass_tables_are_those_of_the_integrals() {
         }
         let root_mean = (squares / count).sqrt();
         assert!(worst < 3.0e-3 && root_mean < 6.0e-4, "{ior}: {worst} {root_mean}");
-        // Means are those of what is interpolated.
+        // Means are those of the interpolated values.
         for roughness in [0.2_f32, 0.55, 1.0] {
             for block in [Block::Front, Block::Back, Block::Reflected] {
                 let (steps, mut mean) = (3000_u16, 0.0);

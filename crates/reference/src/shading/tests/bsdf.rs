@@ -7,7 +7,7 @@ use crate::shading::{
     random::RandomStream,
 };
 
-/// Surfaces that exercise every lobe; glass from both sides.
+/// Returns surfaces that exercise every lobe; glass from both sides.
 fn surfaces() -> Vec<(&'static str, Surface)> {
     let base = Surface { specular: 1.0, ..Surface::default() };
     let colored = Vec3::new(0.9, 0.6, 0.3);
@@ -36,7 +36,7 @@ fn surfaces() -> Vec<(&'static str, Surface)> {
     all
 }
 
-/// Surfaces whose facets are rougher along one direction, which leans out of the surface.
+/// Returns surfaces whose facets are rougher along one direction, which leans out of the surface.
 fn anisotropic() -> Vec<(&'static str, Surface)> {
     let rougher = Vec3::new(3.0, -1.0, 0.5);
     let base = Surface { specular: 1.0, rougher, ..Surface::default() };
@@ -55,7 +55,7 @@ fn anisotropic() -> Vec<(&'static str, Surface)> {
     all
 }
 
-/// Surfaces that reflect by Ward's lobe.
+/// Returns surfaces that reflect by Ward's lobe.
 fn of_ward() -> Vec<(&'static str, Surface)> {
     let base =
         Surface { specular: 1.0, is_ward: true, rougher: Vec3::new(3.0, -1.0, 0.5), ..Surface::default() };
@@ -79,8 +79,8 @@ pub(super) fn random(index: u32) -> [f32; 4] {
     RandomStream { seed: 11, pixel: index, sample: 0 }.four(0)
 }
 
-/// Integrals over the sphere, by the midpoint rule in polar angle and azimuth about z. Lobes lie where
-/// light from `o` is mirrored or refracted to: azimuths are dense there.
+/// Integrates over the sphere, by the midpoint rule in polar angle and azimuth about z. Lobes lie around the
+/// mirrored and refracted directions of light from `o`: azimuths are dense there.
 fn over_sphere<const N: usize>(o: Vec3, value: impl Fn(Vec3) -> [f64; N]) -> [f64; N] {
     over_sphere_in_rows(720, o, value)
 }
@@ -137,7 +137,7 @@ fn densities_describe_the_samples() {
     }
 }
 
-/// A density that is 5 percent off is seen by the test above at its own tolerance.
+/// The test above notices a density that is 5 percent off, at its own tolerance.
 #[test]
 fn a_wrong_density_would_be_seen() {
     let surface = Surface { specular: 1.0, roughness: 0.5, ..Surface::default() };
@@ -166,14 +166,14 @@ fn weights_are_value_times_cosine_over_density() {
 }
 
 pub(super) fn directional_albedo(surface: &Surface, o: Vec3) -> f64 {
-    // Light that little roughness refracts straight on is narrow.
+    // The lobe of light that little roughness refracts straight on is narrow.
     let narrow = surface.thickness > 0.0 && surface.roughness < 0.2;
     over_sphere_in_rows(if narrow { 2160 } else { 720 }, o, |i| {
         [f64::from(bsdf_evaluate(surface, o, i).max_element() * i.z.abs())]
     })[0]
 }
 
-/// Nothing sends out more than it receives, whatever the angle.
+/// No surface sends out more light than it receives, for any angle.
 #[test]
 fn surfaces_do_not_make_energy() {
     for (name, surface) in surfaces() {
@@ -204,7 +204,7 @@ fn surfaces_do_not_make_energy() {
     );
 }
 
-/// White surfaces that absorb nothing send back all light, from every angle and at every roughness.
+/// White surfaces without absorption send back all light, from every angle and at every roughness.
 #[test]
 fn white_surfaces_lose_nothing() {
     let base = Surface { specular: 1.0, ..Surface::default() };
@@ -251,8 +251,8 @@ fn lambert_is_exact_without_specular() {
     }
 }
 
-/// f(o, i) = f(i, o) where light is reflected; through a boundary the two differ by the square of the
-/// ratio of the indices.
+/// Reflected light has f(o, i) = f(i, o); through a boundary the two differ by the square of the ratio of the
+/// indices.
 #[test]
 fn light_paths_can_be_reversed() {
     let mut compared = 0;
@@ -337,7 +337,7 @@ fn beyond_the_critical_angle_everything_is_reflected() {
     }
 }
 
-/// Light never leaks through where the shading normal and the true surface disagree.
+/// No light leaks through where the shading normal and the true surface disagree.
 #[test]
 fn tilted_shading_normals_do_not_leak() {
     let normal = Vec3::new(0.8, 0.0, 0.6);
@@ -352,8 +352,8 @@ fn tilted_shading_normals_do_not_leak() {
     }
 }
 
-/// A dull surface whose normals lean away sends on what of its lobe is not below it, wherever it is seen
-/// from: the normal is bent for facets alone.
+/// A dull surface whose normals lean away sends on the part of its lobe that is not below it, for every view:
+/// the normal is bent for facets alone.
 #[test]
 fn a_dull_surface_keeps_its_normal_from_every_view() {
     for degrees in [0.0_f32, 30.0, 50.0, 80.0] {

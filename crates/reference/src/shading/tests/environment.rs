@@ -51,7 +51,7 @@ fn samples_cover_the_sphere_by_density() {
         }
         let sphere = 4.0 * std::f64::consts::PI;
         assert!((area - sphere).abs() < 1.0e-3, "{area}");
-        // y^2 is a third on average, with a standard deviation of 0.298.
+        // The mean of y^2 is a third, with a standard deviation of 0.298.
         assert!((square / sphere - 1.0 / 3.0).abs() < 4.0 * 0.298 / 200.0, "{square}");
     }
 }

@@ -44,7 +44,7 @@ fn the_front_is_counter_clockwise_and_mirrored_with_the_instance() {
         scene.materials[0].double_sided = double_sided;
         for from_front in [true, false] {
             let surface = seen(&scene, from_front);
-            // The mesh's own front faces +z, and mirroring in x leaves that so.
+            // The mesh's own front faces +z, and mirroring in x keeps that.
             assert_eq!(surface.front, from_front, "{mirrored}");
             assert_eq!(surface.geometric_normal, if from_front { Vec3::Z } else { Vec3::NEG_Z });
             let shines = from_front || double_sided;
@@ -83,7 +83,7 @@ fn shading_normals_are_interpolated_and_facets_face_the_ray() {
     assert!((seen(&scene, true).normal - Vec3::from(tilted)).length() < 1.0e-6);
     assert!((seen(&scene, false).normal + Vec3::from(tilted)).length() < 1.0e-6);
 
-    // Scaling in z tilts normals the other way than positions.
+    // Scaling in z tilts normals in the opposite sense to positions.
     scene.instances[0].world_from_mesh = DAffine3::from_mat3(DMat3::from_diagonal(DVec3::new(1.0, 1.0, 3.0)));
     let expected = Vec3::new(0.28, 0.0, 0.32).normalize();
     assert!((seen(&scene, true).normal - expected).length() < 1.0e-6);
@@ -116,7 +116,7 @@ fn with_texture(scene: &mut rasray_scene::Scene, texel: [u8; 4]) -> TextureRef {
     TextureRef { texture: scene.textures.len() - 1, uv_set: 0, uv_transform: IDENTITY }
 }
 
-/// Red tilts towards growing u, green towards the image's top, with and without tangents in the mesh,
+/// Red tilts towards growing u, green towards the image's top: with and without tangents in the mesh,
 /// mirrored or not, from either side.
 #[test]
 fn normal_maps_tilt_towards_u_and_up() {
@@ -192,8 +192,7 @@ fn unit(random: RandomStream, dimension: u32) -> Vec3 {
     Vec3::new(sine * azimuth.cos(), sine * azimuth.sin(), cosine)
 }
 
-/// Mirrored directions leave the surface, whatever the normals; normals that were fit to mirror keep their
-/// bits.
+/// Mirrored directions leave the surface, for any normals; normals that need no bending keep their bits.
 #[test]
 fn facets_mirror_away_from_the_surface() {
     let g = Vec3::Z;
@@ -215,12 +214,13 @@ fn facets_mirror_away_from_the_surface() {
         bent += 1;
         assert!((mirrored(fit).z - least).abs() < 1.0e-5, "{n} {o}: {}", mirrored(fit));
         assert!((fit.length() - 1.0).abs() < 1.0e-5 && fit.dot(o) > 0.0 && fit.z > 0.0, "{n} {o}: {fit}");
-        // Bent in the plane of the mirrored direction and the surface's normal: light turns no corner.
+        // The normal is bent in the plane of the mirrored direction and the surface's normal: the light keeps
+        // its azimuth.
         let before = mirrored(n).truncate().normalize();
         assert!(before.dot(mirrored(fit).truncate().normalize()) > 0.999, "{n} {o}");
     }
     assert!(kept > 5000 && bent > 5000, "{kept} {bent}");
-    // Where the rule sets in, it sets in without a step.
+    // The rule begins without a step.
     let o = Vec3::new(0.6, 0.0, 0.8);
     let leaning = |angle: f32| Vec3::new(-angle.sin(), 0.0, angle.cos());
     let start = 0.5 * (0.8_f32.asin() - 0.01_f32.asin());
@@ -230,7 +230,7 @@ fn facets_mirror_away_from_the_surface() {
     }
 }
 
-/// A polished metal of shading normals that lean away absorbs nothing, from wherever it is seen.
+/// A polished metal with leaning shading normals absorbs nothing, for every view.
 #[test]
 fn leaning_mirrors_are_not_black() {
     let mut mesh = unit_quad(0);
@@ -248,8 +248,8 @@ fn leaning_mirrors_are_not_black() {
     }
 }
 
-/// Fine stripes seen at a grazing angle keep their contrast across them, and many samples of a pixel see them
-/// finer.
+/// Fine stripes seen at a grazing angle keep their contrast across them, and more samples per pixel resolve
+/// them finer.
 #[test]
 fn footprints_are_those_of_one_sample_and_do_not_grow_with_the_angle() {
     let mut scene = scene(vec![diffuse(1.0)], vec![unit_quad(0)]);
@@ -272,8 +272,8 @@ fn footprints_are_those_of_one_sample_and_do_not_grow_with_the_angle() {
         };
         (seen(32.5 / 64.0) - seen(31.5 / 64.0)).abs()
     };
-    // A texel is 1/64 m wide: a cone as wide sees level 0, from above and from the side; twice as wide a
-    // grey.
+    // A texel is 1/64 m wide: a cone as wide sees level 0, from above and from the side; a cone twice as wide
+    // sees a grey.
     for direction in [Vec3::NEG_Z, Vec3::new(0.0, 1.0, -0.05)] {
         assert!(contrast(direction, 1.0 / 64.0) > 0.99, "{direction}");
         assert!(contrast(direction, 2.0 / 64.0) < 0.01, "{direction}");

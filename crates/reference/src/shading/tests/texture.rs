@@ -86,7 +86,7 @@ fn a_texel_as_wide_as_the_footprint_is_level_zero() {
     let mut reference = TextureRef { texture: 0, uv_set: 0, uv_transform: IDENTITY };
     let mut table = TextureTable::new(&scene);
     table.prepare(reference, Use::Linear);
-    // One copy of 4 x 4 texels a square metre: a texel is 0.25 m.
+    // One copy of 4 x 4 texels covers a square metre: a texel is 0.25 m.
     assert_eq!(table.level(Some(&reference), 1.0, 0.25), 0.0);
     assert_eq!(table.level(Some(&reference), 1.0, 1.0), 2.0);
     reference.uv_transform = [[2.0, 0.0, 0.0], [0.0, 2.0, 0.0]];
