@@ -1,8 +1,8 @@
-//! The incomplete beta function, behind the confidence intervals.
+//! Incomplete beta function, on which the confidence intervals are based.
 
-/// ln of the gamma function for x > 0; absolute error about 1e-14 times the result.
+/// Returns ln of the gamma function for x > 0; absolute error about 1e-14 times the result.
 fn ln_gamma(x: f64) -> f64 {
-    // Stirling's series is good from 12 on; below, the recurrence leads there.
+    // Stirling's series is accurate from 12 on; the recurrence leads smaller numbers there.
     let (mut x, mut shift) = (x, 0.0);
     while x < 12.0 {
         shift -= x.ln();
@@ -15,8 +15,8 @@ fn ln_gamma(x: f64) -> f64 {
     shift + (x - 0.5) * x.ln() - x + 0.5 * (2.0 * std::f64::consts::PI).ln() + series
 }
 
-/// Regularised incomplete beta function I_x(a, b) for a, b > 0 and x in [0, 1]: the probability that a
-/// variable with that beta distribution is at most x.
+/// Returns the regularised incomplete beta function I_x(a, b) for a, b > 0 and x in [0, 1]: the probability
+/// that a variable with that beta distribution is at most x.
 pub(crate) fn incomplete_beta(a: f64, b: f64, x: f64) -> f64 {
     if x <= 0.0 {
         return 0.0;
@@ -33,7 +33,7 @@ pub(crate) fn incomplete_beta(a: f64, b: f64, x: f64) -> f64 {
 
 fn incomplete_beta_fraction(a: f64, b: f64, x: f64) -> f64 {
     let ln_front = ln_gamma(a + b) - ln_gamma(a) - ln_gamma(b) + a * x.ln() + b * (-x).ln_1p();
-    // Evaluated front to back (modified Lentz); TINY stands in for a vanishing denominator.
+    // The fraction is evaluated front to back (modified Lentz); TINY replaces a vanishing denominator.
     const TINY: f64 = 1e-300;
     let guard = |value: f64| if value.abs() < TINY { TINY } else { value };
     let mut numerator = 1.0;
@@ -57,10 +57,10 @@ fn incomplete_beta_fraction(a: f64, b: f64, x: f64) -> f64 {
     (ln_front.exp() * fraction / a).clamp(0.0, 1.0)
 }
 
-/// The x with I_x(a, b) = probability.
+/// Returns the x with I_x(a, b) = probability.
 pub(crate) fn inverse_incomplete_beta(a: f64, b: f64, probability: f64) -> f64 {
     let (mut low, mut high) = (0.0_f64, 1.0_f64);
-    // Bisection to the last bit, counted so that small rates keep their relative precision.
+    // The bisection goes to the last bit, so that small rates keep their relative precision.
     for _ in 0..200 {
         let middle = 0.5 * (low + high);
         if middle <= low || middle >= high {
@@ -98,7 +98,8 @@ mod tests {
     #[test]
     fn closed_forms() {
         for x in [0.01, 0.2, 0.5, 0.77, 0.99] {
-            // I_x(a, 1) = x^a, I_x(1, b) = 1 - (1-x)^b, I_x(2, 2) = x^2 (3 - 2x), arcsine law.
+            // The closed forms are I_x(a, 1) = x^a, I_x(1, b) = 1 - (1-x)^b, I_x(2, 2) = x^2 (3 - 2x),
+            // arcsine law.
             assert_abs_diff_eq!(incomplete_beta(3.5, 1.0, x), x.powf(3.5), epsilon = 1e-13);
             assert_abs_diff_eq!(incomplete_beta(1.0, 7.0, x), (1.0 - (1.0 - x).powi(7)), epsilon = 1e-13);
             assert_abs_diff_eq!(incomplete_beta(2.0, 2.0, x), x * x * (3.0 - 2.0 * x), epsilon = 1e-13);

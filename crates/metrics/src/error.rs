@@ -1,28 +1,28 @@
-/// Why a comparison cannot be made.
+/// Error of a comparison.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum MetricsError {
-    /// Verdicts and hits are compared one to one.
+    /// The numbers of verdicts and hits differ.
     #[error("{truths} verdicts but {hits} hits; pass one of each for every ray")]
     RayCountMismatch {
-        /// Verdicts given.
+        /// Number of verdicts given.
         truths: usize,
-        /// Hits given.
+        /// Number of hits given.
         hits: usize,
     },
-    /// The pixel count does not follow from the size.
+    /// The number of pixels does not match the size.
     #[error(
         "{pixels} pixels for an image of {width} x {height}; pass width * height of them, and at least one"
     )]
     PixelCountMismatch {
-        /// Pixels given.
+        /// Number of pixels given.
         pixels: usize,
-        /// Pixels in a row.
+        /// Number of pixels in a row.
         width: usize,
-        /// Rows.
+        /// Number of rows.
         height: usize,
     },
-    /// The two images do not match.
+    /// The sizes of the two images differ.
     #[error(
         "an image of {test:?} pixels cannot be compared with a reference of {reference:?}; render both at one size"
     )]
@@ -32,16 +32,16 @@ pub enum MetricsError {
         /// Width and height of the reference.
         reference: [usize; 2],
     },
-    /// A reference must be right.
+    /// A pixel of the reference is not finite.
     #[error("pixel {pixel} of the reference is not finite; render the reference again")]
     NonFiniteReference {
-        /// The first such pixel, in row order.
+        /// Index of the first such pixel, in row order.
         pixel: usize,
     },
     /// The image is too large for the perceptual metric.
     #[error("an image of {size:?} pixels is too large for FLIP; compare it in parts")]
     TooLarge {
-        /// Width and height.
+        /// Width and height of the image.
         size: [usize; 2],
     },
 }

@@ -9,41 +9,42 @@ use nv_flip::{DEFAULT_PIXELS_PER_DEGREE, FlipImageRgb8};
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Flip {
-    /// Over all pixels.
+    /// Mean over all pixels.
     pub mean: f64,
     /// 99th percentile of the pixels.
     pub p99: f64,
-    /// Worst pixel.
+    /// Value of the worst pixel.
     pub max: f64,
     /// Share of the pixels above [`VISIBLE`].
     pub visible: f64,
 }
 
-/// From where on a pixel counts as one that differs visibly. The authors of FLIP name no threshold: this is a
-/// tenth of the difference of black and white.
+/// Value from which on a pixel differs visibly. The authors of FLIP give no threshold: this one is a tenth of
+/// the difference of black and white.
 pub const VISIBLE: f32 = 0.1;
 
-/// The variant for low dynamic range (LDR-FLIP) of displayed values (exposure 1, clamped, sRGB) in 8 bits
-/// a channel. What lies above 1 is white for it; HDR-FLIP, which looks at several exposures, is not
+/// Computes the variant for low dynamic range (LDR-FLIP) of displayed values (exposure 1, clamped, sRGB) in 8
+/// bits per channel. Values above 1 are white for it; HDR-FLIP, which compares several exposures, is not
 /// computed here.
 ///
 /// # Errors
-/// If the sizes differ, a pixel of the reference is not finite, or the image has more than 2^29 pixels.
+/// An error if the sizes differ, a pixel of the reference is not finite, or the image has more than 2^29
+/// pixels.
 pub fn flip(test: &Image<'_>, reference: &Image<'_>) -> Result<Flip, MetricsError> {
     Ok(Flip::of(&flip_map(test, reference)?))
 }
 
-/// The values that [`flip`] sums up: one in [0, 1] for each pixel, in row order.
+/// Computes the values that [`flip`] summarises: one in [0, 1] for each pixel, in row order.
 ///
 /// # Errors
-/// As [`flip`].
+/// Errors of [`flip`].
 pub fn flip_map(test: &Image<'_>, reference: &Image<'_>) -> Result<Vec<f32>, MetricsError> {
     check(test, reference)?;
     Ok(nv_flip::flip(quantize(reference)?, quantize(test)?, DEFAULT_PIXELS_PER_DEGREE).to_vec())
 }
 
 impl Flip {
-    /// Sums up the values of pixels, as [`flip_map`] gives them; NaN where there are none.
+    /// Summarises the values of pixels, as [`flip_map`] gives them; NaN if there are none.
     pub fn of(map: &[f32]) -> Self {
         let values: Vec<f64> = map.iter().copied().map(f64::from).collect();
         Self {
@@ -91,7 +92,7 @@ mod tests {
         spot[16 * 32 + 16] = [1.0, 0.1, 0.1];
         let error = measure(&spot, &grey);
         assert!(error.max > 0.2 && error.mean < 0.05 && error.p99 <= error.max, "{error:?}");
-        // The map says where: the worst pixel is the spot, and the far corner sees nothing of it.
+        // The map shows the place: the worst pixel is the spot, and the far corner has no difference.
         let [test, reference] = [&spot, &grey].map(|p| Image::new(32, 32, p).expect("sizes fit"));
         let map = flip_map(&test, &reference).expect("comparable");
         assert_eq!(Flip::of(&map), error);

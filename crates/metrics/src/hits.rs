@@ -2,9 +2,9 @@ use crate::error::MetricsError;
 use crate::rate::Rate;
 use crate::statistics::Percentiles;
 
-/// The true answer for one ray.
+/// True answer for one ray.
 pub trait Truth {
-    /// Triangle and t of the nearest hit in exact arithmetic.
+    /// Returns triangle and t of the nearest hit in exact arithmetic.
     fn hit(&self) -> Option<(u32, f64)>;
 
     /// True if rounding of a careful test may lead to another answer.
@@ -17,29 +17,29 @@ pub trait Truth {
     fn admits_hit(&self, primitive: Option<u32>, t: f64) -> bool;
 }
 
-/// A hit that a structure reports.
+/// Hit that a structure reports.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DeviceHit {
-    /// In units of the direction's length.
+    /// Ray parameter in units of the direction's length.
     pub t: f32,
-    /// Running index of the triangle, where the structure knows it.
+    /// Running index of the triangle, if the structure knows it.
     pub primitive: Option<u32>,
 }
 
 /// Differences of a structure's answers from the truth.
 ///
-/// Rates are over unambiguous rays, unless their name says otherwise: what single precision cannot
-/// tell apart is no fault. A hit whose t is not finite counts in `non_finite` and nowhere else.
+/// Rates are over unambiguous rays, unless their name says otherwise: cases that single precision cannot tell
+/// apart are no faults. A hit whose t is not finite counts in `non_finite` and nowhere else.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct HitConfusion {
-    /// All rays.
+    /// Number of all rays.
     pub rays: u64,
-    /// Rays with more than one admissible answer.
+    /// Number of rays with more than one admissible answer.
     pub ambiguous: u64,
     /// Rate of rays without a hit, among the ambiguous rays whose surroundings are closed.
     pub ambiguous_lost: Rate,
-    /// Rate of hits that are none of the admissible ones, among the ambiguous rays that got a hit.
+    /// Rate of inadmissible hits, among the ambiguous rays that got a hit.
     pub ambiguous_wrong: Rate,
     /// Rate of rays without a hit, among the rays that hit.
     pub missed: Rate,
@@ -51,7 +51,7 @@ pub struct HitConfusion {
     /// Rate of errors of t that rounding does not explain, among the rays that hit and got a hit on the right
     /// triangle (or on an unknown one).
     pub t_off: Rate,
-    /// |dt| / t of the rays that hit and got a hit; absent if there are none.
+    /// Percentiles of |dt| / t of the rays that hit and got a hit; absent if there are none.
     pub dt_rel: Option<Percentiles>,
     /// Rate of hits with a t that is NaN or infinite, among all rays.
     pub non_finite: Rate,
@@ -60,11 +60,11 @@ pub struct HitConfusion {
 impl HitConfusion {
     /// Compares answers, one for each verdict; `None` is a miss.
     ///
-    /// `wrong_primitive_tolerance` is the |dt| / t up to which another triangle's id is forgiven: 0 for
+    /// `wrong_primitive_tolerance` is the |dt| / t up to which another triangle's id is accepted: 0 for
     /// structures that find triangles, the promised depth error for those that find samples.
     ///
     /// # Errors
-    /// If there are not as many hits as truths.
+    /// An error if the numbers of hits and truths differ.
     pub fn measure<T: Truth>(
         truths: &[T],
         hits: &[Option<DeviceHit>],
@@ -135,9 +135,9 @@ impl HitConfusion {
     }
 }
 
-/// The true t and the found t of each unambiguous ray that hits and got a hit with a finite t.
+/// Iterates over the true t and the found t of each unambiguous ray that hits and got a hit with a finite t.
 ///
-/// Where there are fewer hits than truths, the truths beyond them are left out.
+/// If there are fewer hits than truths, the remaining truths are left out.
 pub fn common_hits<'a, T: Truth>(
     truths: &'a [T],
     hits: &'a [Option<DeviceHit>],

@@ -1,6 +1,6 @@
 use crate::error::MetricsError;
 
-/// An image to compare: linear Rec. 709, rows from the top.
+/// Image to compare: linear Rec. 709, rows from the top.
 #[derive(Clone, Copy, Debug)]
 pub struct Image<'a> {
     width: usize,
@@ -9,8 +9,10 @@ pub struct Image<'a> {
 }
 
 impl<'a> Image<'a> {
+    /// Wraps pixels as an image.
+    ///
     /// # Errors
-    /// If there are not `width * height` pixels, or none.
+    /// An error if there are not `width * height` pixels, or none.
     pub fn new(width: usize, height: usize, pixels: &'a [[f32; 3]]) -> Result<Self, MetricsError> {
         if pixels.is_empty() || width.checked_mul(height) != Some(pixels.len()) {
             return Err(MetricsError::PixelCountMismatch { pixels: pixels.len(), width, height });
@@ -18,18 +20,18 @@ impl<'a> Image<'a> {
         Ok(Self { width, height, pixels })
     }
 
-    /// Width and height.
+    /// Returns width and height.
     pub fn size(&self) -> [usize; 2] {
         [self.width, self.height]
     }
 
-    /// In row order.
+    /// Returns the pixels in row order.
     pub fn pixels(&self) -> &'a [[f32; 3]] {
         self.pixels
     }
 }
 
-/// That two images can be compared.
+/// Checks that two images can be compared.
 pub(crate) fn check(test: &Image<'_>, reference: &Image<'_>) -> Result<(), MetricsError> {
     if test.size() != reference.size() {
         return Err(MetricsError::SizeMismatch { test: test.size(), reference: reference.size() });

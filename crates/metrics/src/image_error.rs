@@ -3,31 +3,32 @@ use crate::image::{Image, check};
 use crate::statistics::percentile;
 use crate::tone::display_values;
 
-/// Guards the relative error against black references.
+/// Term that keeps the relative error finite for black references.
 const RELATIVE_EPSILON: f64 = 1e-2;
 
 /// Differences of an image R from a reference r. Sums run over pixels and channels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ImageError {
-    /// Pixels with a NaN or infinite channel. They are left out of the figures in linear light; those
-    /// of displayed values take NaN for black and infinity for white.
+    /// Number of pixels with a NaN or infinite channel. The figures in linear light leave them out; those of
+    /// displayed values take NaN for black and infinity for white.
     pub non_finite: usize,
-    /// mean |R - r|, linear.
+    /// Mean absolute error: mean |R - r|, linear.
     pub mae: f64,
-    /// mean (R - r)^2, linear.
+    /// Mean squared error: mean (R - r)^2, linear.
     pub mse: f64,
     /// Root of `mse`.
     pub rmse: f64,
-    /// mean (R - r)^2 / (r^2 + 0.01), linear.
+    /// Relative mean squared error: mean (R - r)^2 / (r^2 + 0.01), linear.
     pub relmse: f64,
     /// `relmse` without the greatest 0.1 % of its terms, so that a few fireflies do not decide.
     pub relmse_trimmed: f64,
-    /// mean (R - r), linear: what no number of samples removes.
+    /// Bias: mean (R - r), linear, which no number of samples removes.
     pub bias: f64,
-    /// Standard error of `bias` if pixels err independently.
+    /// Standard error of `bias` for independent errors of pixels.
     pub bias_sigma: f64,
-    /// 10 log10(1 / MSE) of displayed values, in decibels; infinite for equal images.
+    /// Peak signal-to-noise ratio: 10 log10(1 / MSE) of displayed values, in decibels; infinite for equal
+    /// images.
     pub psnr: f64,
     /// Mean structural similarity of displayed luma, see [`crate::ssim`]; 1 for equal images.
     pub ssim: f64,
@@ -40,7 +41,8 @@ impl ImageError {
     /// Compares two images of one size.
     ///
     /// # Errors
-    /// If the sizes differ, a pixel of the reference is not finite, or the image is too large for FLIP.
+    /// An error if the sizes differ, a pixel of the reference is not finite, or the image is too large for
+    /// FLIP.
     pub fn measure(test: &Image<'_>, reference: &Image<'_>) -> Result<Self, MetricsError> {
         check(test, reference)?;
         let mut differences = Vec::with_capacity(test.pixels().len() * 3);
@@ -84,7 +86,7 @@ fn psnr(test: &Image<'_>, reference: &Image<'_>) -> f64 {
     -10.0 * mean(squares.map(|(a, b)| (f64::from(*a) - f64::from(*b)).powi(2))).log10()
 }
 
-/// NaN if there is nothing to average.
+/// Returns the mean; NaN if there are no values.
 fn mean(values: impl Iterator<Item = f64>) -> f64 {
     let (sum, count) = values.fold((0.0, 0.0), |(sum, count), value| (sum + value, count + 1.0));
     sum / count
@@ -153,7 +155,7 @@ mod tests {
             assert!(value > 1e-5, "{name} = {value}");
         }
         assert!(error.psnr < 60.0);
-        // The trimmed figure leaves out three of 3,600 terms, which is just this pixel.
+        // The trimmed figure leaves out three of 3,600 terms, which are those of this pixel.
         assert_eq!(error.relmse_trimmed, 0.0);
         #[cfg(feature = "flip")]
         assert!(error.flip.max > 0.2 && error.flip.mean > 1e-4 && error.flip.mean < 0.1, "{:?}", error.flip);

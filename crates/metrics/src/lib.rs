@@ -1,5 +1,5 @@
 //! Errors of traced hits and rendered images against the truth, and the confidence in them. Comparisons,
-//! reports and tests measure with it. All of it is arithmetic on slices, without a device.
+//! reports and tests measure with this crate. All of it is arithmetic on slices, without a device.
 //!
 //! - [`HitConfusion`] compares a structure's hits with exact verdicts, ray by ray.
 //! - [`ImageError`] compares an image with a reference; [`flip()`] and [`ssim()`] are perceptual measures.

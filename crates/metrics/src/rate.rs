@@ -4,28 +4,29 @@ use crate::beta::inverse_incomplete_beta;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Rate {
-    /// Times that the event happened; at most `total`.
+    /// Number of trials in which the event happened; at most `total`.
     pub count: u64,
-    /// Trials.
+    /// Number of trials.
     pub total: u64,
 }
 
 impl Rate {
-    /// `count / total`; absent if it could not have happened.
+    /// Returns `count / total`; `None` without trials.
     pub fn value(&self) -> Option<f64> {
         (self.total > 0).then(|| self.count as f64 / self.total as f64)
     }
 
-    /// The 95 % confidence interval of the true rate; absent if nothing was tried.
+    /// Returns the 95 % confidence interval of the true rate; `None` without trials.
     pub fn interval(&self) -> Option<[f64; 2]> {
         self.interval_at(0.95)
     }
 
-    /// The confidence interval of the true rate, for a confidence in (0, 1); absent if nothing was
-    /// tried or the confidence is out of range.
+    /// Returns the confidence interval of the true rate, for a confidence in (0, 1); `None` without trials or
+    /// if the confidence is out of range.
     ///
-    /// Clopper-Pearson, so the confidence is a lower bound whatever the rate. If it never (or always)
-    /// happened only one side can err, and the bound is -ln(1 - confidence) / total: 3 / total at 95 %.
+    /// The interval is that of Clopper-Pearson, so the confidence is a lower bound for any rate. If the event
+    /// never (or always) happened only one side can err, and the bound is -ln(1 - confidence) / total: 3 /
+    /// total at 95 %.
     pub fn interval_at(&self, confidence: f64) -> Option<[f64; 2]> {
         if self.total == 0 || !(0.0 < confidence && confidence < 1.0) {
             return None;
@@ -46,7 +47,7 @@ impl Rate {
     }
 
     /// True if the interval is the one-sided bound of a rate that never or always happened, 3 / total at 95
-    /// %; Clopper-Pearson otherwise.
+    /// %; false if it is that of Clopper-Pearson.
     pub fn is_one_sided(&self) -> bool {
         self.total > 0 && (self.count == 0 || self.count >= self.total)
     }
@@ -60,9 +61,9 @@ impl Rate {
     }
 }
 
-/// The confidence that each of `rates` intervals must have for all of them to hold together with
-/// `family_confidence`: 1 - (1 - family_confidence) / rates (Bonferroni; independence is not needed).
-/// Absent for no rates and for a confidence outside (0, 1).
+/// Returns the confidence that each of `rates` intervals must have for all of them to hold together with
+/// `family_confidence`: 1 - (1 - family_confidence) / rates (Bonferroni; independence is not needed). `None`
+/// for no rates and for a confidence outside (0, 1).
 pub fn confidence_of_each(family_confidence: f64, rates: u64) -> Option<f64> {
     let valid = rates > 0 && 0.0 < family_confidence && family_confidence < 1.0;
     valid.then(|| 1.0 - (1.0 - family_confidence) / rates as f64)
@@ -89,7 +90,7 @@ mod tests {
 
     #[test]
     fn tabulated_interval() {
-        // Two-sided 95 % for 10 of 100, and for 1 of 10.
+        // The intervals are two-sided at 95 %, for 10 of 100, and for 1 of 10.
         let [low, high] = Rate { count: 10, total: 100 }.interval().expect("something was tried");
         assert!((low - 0.049_005).abs() < 1e-6 && (high - 0.176_222).abs() < 1e-6, "{low} {high}");
         let [low, high] = Rate { count: 1, total: 10 }.interval().expect("something was tried");
@@ -98,7 +99,9 @@ mod tests {
 
     #[test]
     fn the_ends_satisfy_their_definition() {
-        // P(X >= count | low) = 2.5 %, P(X <= count | high) = 2.5 %, summed directly.
+        // The bounds satisfy P(X >= count
+        // low) = 2.5 %, P(X <= count
+        // high) = 2.5 %, summed directly.
         let rate = Rate { count: 3, total: 40 };
         let [low, high] = rate.interval().expect("something was tried");
         let at_most = |p: f64, k: u64| -> f64 {

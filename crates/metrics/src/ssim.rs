@@ -8,13 +8,14 @@ const SIGMA: f64 = 1.5;
 const C1: f64 = 0.01 * 0.01;
 const C2: f64 = 0.03 * 0.03;
 
-/// Mean structural similarity (Wang et al. 2004) of the luma of displayed values, over all pixels.
+/// Computes the mean structural similarity (Wang et al. 2004) of the luma of displayed values, over all
+/// pixels.
 ///
-/// Gaussian window of 11 x 11 with sigma 1.5, constants 0.01^2 and 0.03^2. Where the window
+/// The window is Gaussian of 11 x 11 with sigma 1.5, the constants are 0.01^2 and 0.03^2. If the window
 /// leaves the image, the weights inside are scaled to sum to one.
 ///
 /// # Errors
-/// If the sizes differ or a pixel of the reference is not finite.
+/// An error if the sizes differ or a pixel of the reference is not finite.
 pub fn ssim(test: &Image<'_>, reference: &Image<'_>) -> Result<f64, MetricsError> {
     check(test, reference)?;
     let [width, height] = test.size();
@@ -37,7 +38,7 @@ fn luma(image: &Image<'_>) -> Vec<f64> {
     display_values(image).into_iter().map(weigh).collect()
 }
 
-/// Both passes of the window.
+/// Applies both passes of the window.
 fn blur(plane: &[f64], width: usize, height: usize) -> Vec<f64> {
     let columns = blur_along(plane, width, 1, width);
     blur_along(&columns, height, width, width)
@@ -76,7 +77,7 @@ mod tests {
     fn flat_images_have_a_closed_form() {
         let (a, b) = (grey(1.0, 200), grey(0.0, 200));
         let [a, b] = [&a, &b].map(|pixels| Image::new(20, 10, pixels).expect("sizes fit"));
-        // White against black: C1 / (1 + C1), and no variance at all.
+        // White against black gives C1 / (1 + C1), and no variance at all.
         let value = ssim(&a, &b).expect("comparable");
         assert_abs_diff_eq!(value, C1 / (1.0 + C1), epsilon = 1e-7);
     }

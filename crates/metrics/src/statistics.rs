@@ -1,18 +1,18 @@
-//! Medians and percentiles: errors and times have heavy tails that ruin means.
+//! Medians and percentiles: errors and times have heavy tails that distort means.
 
-/// Linear interpolation between order statistics; `fraction` in [0, 1]. NaN values are left out;
-/// absent if none are left.
+/// Returns a percentile by linear interpolation between order statistics; `fraction` in [0, 1]. NaN values
+/// are left out; `None` if no value is left.
 pub fn percentile(values: &[f64], fraction: f64) -> Option<f64> {
     percentile_of_sorted(&sorted(values), fraction)
 }
 
-/// The middle value, or the mean of the middle two. NaN values are left out.
+/// Returns the middle value, or the mean of the middle two. NaN values are left out.
 pub fn median(values: &[f64]) -> Option<f64> {
     percentile(values, 0.5)
 }
 
-/// Median of the means of `groups` runs of neighbours: a mean that a few outliers cannot move. NaN
-/// values are left out; fewer values than groups make one group each.
+/// Returns the median of the means of `groups` runs of neighbours: a mean that a few outliers cannot move.
+/// NaN values are left out; fewer values than groups make one group each.
 pub fn median_of_means(values: &[f64], groups: usize) -> Option<f64> {
     let values: Vec<f64> = values.iter().copied().filter(|x| !x.is_nan()).collect();
     let groups = groups.clamp(1, values.len().max(1));
@@ -36,15 +36,15 @@ fn percentile_of_sorted(sorted: &[f64], fraction: f64) -> Option<f64> {
     let below = place.floor() as usize;
     let (low, high) = (sorted[below], sorted[(below + 1).min(last)]);
     let part = place - below as f64;
-    // Not low + part * (high - low) throughout: infinite values must not turn into NaN.
+    // The case without interpolation is separate: infinite values must not turn into NaN.
     Some(if part == 0.0 || low == high { low } else { low + part * (high - low) })
 }
 
-/// The tail of a distribution of errors.
+/// Tail of a distribution of errors.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Percentiles {
-    /// Values looked at.
+    /// Number of values, without NaN.
     pub count: usize,
     /// Median.
     pub p50: f64,
@@ -59,7 +59,7 @@ pub struct Percentiles {
 }
 
 impl Percentiles {
-    /// Absent if no value is left after NaN values are left out.
+    /// Computes the percentiles; `None` if no value is left after NaN values are left out.
     pub fn of(values: &[f64]) -> Option<Self> {
         let sorted = sorted(values);
         let at = |fraction| percentile_of_sorted(&sorted, fraction);
@@ -74,11 +74,11 @@ impl Percentiles {
     }
 }
 
-/// A measured series, such as the times of a pass.
+/// Summary of a measured series, such as the times of a pass.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Summary {
-    /// Values looked at.
+    /// Number of values, without NaN.
     pub count: usize,
     /// Middle value.
     pub median: f64,
@@ -95,7 +95,7 @@ pub struct Summary {
 }
 
 impl Summary {
-    /// Absent if no value is left after NaN values are left out.
+    /// Computes the summary; `None` if no value is left after NaN values are left out.
     pub fn of(values: &[f64]) -> Option<Self> {
         let sorted_values = sorted(values);
         let median = percentile_of_sorted(&sorted_values, 0.5)?;
@@ -126,7 +126,7 @@ mod tests {
         assert_abs_diff_eq!(p.p999, 99.9, epsilon = 1e-9);
         let summary = Summary::of(&ramp).expect("not empty");
         assert_eq!((summary.first_quartile, summary.third_quartile), (25.0, 75.0));
-        // One value beyond the rest moves the tail and none of the quartiles.
+        // One value beyond the rest moves the tail, but none of the quartiles.
         let mut tailed = ramp.clone();
         tailed[0] = 1e9;
         let moved = Percentiles::of(&tailed).expect("not empty");

@@ -1,4 +1,4 @@
-//! From linear light to the values of a screen.
+//! Conversion of linear light to the values of a screen.
 
 mod aces;
 mod agx;
@@ -9,14 +9,14 @@ use crate::image::Image;
 /// exposure 0 and no curve beyond that of sRGB.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Tone {
-    /// Brings exposed colours into the range of a screen.
+    /// Curve that brings exposed colours into the range of a screen.
     pub curve: ToneCurve,
-    /// Stops: colours are multiplied by 2 to this power first.
+    /// Exposure in stops: colours are multiplied by 2 to this power first.
     pub exposure: f32,
 }
 
 impl From<f32> for Tone {
-    /// Exposure alone, in stops.
+    /// Makes a tone of exposure alone, in stops.
     fn from(exposure: f32) -> Self {
         Self { exposure, ..Self::default() }
     }
@@ -25,20 +25,20 @@ impl From<f32> for Tone {
 /// Curve that brings exposed colours into the range of a screen. All end with the sRGB transfer curve.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum ToneCurve {
-    /// None: values are clamped to 0 to 1.
+    /// No curve: values are clamped to 0 to 1.
     #[default]
     Exposure,
-    /// AgX by Troy Sobotka, as Eary Chow made it for Blender 4.
+    /// AgX by Troy Sobotka, in the version of Eary Chow for Blender 4.
     Agx,
     /// ACES 1 for a standard screen (RRT and ODT), as fitted by Stephen Hill.
     Aces,
 }
 
 impl ToneCurve {
-    /// All of them.
+    /// All curves.
     pub const ALL: [Self; 3] = [Self::Exposure, Self::Agx, Self::Aces];
 
-    /// Its name on the command line and in files.
+    /// Name on the command line and in files.
     pub fn name(self) -> &'static str {
         match self {
             Self::Exposure => "exposure",
@@ -58,7 +58,7 @@ impl ToneCurve {
 }
 
 impl Tone {
-    /// Linear light of a screen, 0 to 1, for a linear colour of Rec. 709. NaN becomes 0.
+    /// Returns the linear light of a screen, 0 to 1, for a linear colour of Rec. 709. NaN becomes 0.
     pub fn shown(self, linear: [f32; 3]) -> [f32; 3] {
         let scale = self.exposure.exp2();
         let exposed = linear.map(|value| value * scale);
@@ -70,14 +70,14 @@ impl Tone {
     }
 }
 
-/// Linear light to values as shown: exposure 1, clamped to [0, 1], sRGB transfer curve. NaN becomes 0.
-/// Metrics of perception (PSNR, SSIM, FLIP) are defined on these.
+/// Converts linear light to values as shown: exposure 1, clamped to [0, 1], sRGB transfer curve. NaN becomes
+/// 0. Metrics of perception (PSNR, SSIM, FLIP) are defined on these values.
 pub fn display_values(image: &Image<'_>) -> Vec<[f32; 3]> {
     image.pixels().iter().map(|pixel| pixel.map(|value| encode(clamped(value)))).collect()
 }
 
-/// Three bytes of sRGB per pixel, rounded to the nearest step; of a number, which is exposure in stops, or of
-/// a [`Tone`].
+/// Returns three bytes of sRGB per pixel, rounded to the nearest step. `tone` is a number, which is exposure
+/// in stops, or a [`Tone`].
 pub fn tone_map(linear: &[[f32; 3]], tone: impl Into<Tone>) -> Vec<u8> {
     let tone = tone.into();
     linear
@@ -87,22 +87,22 @@ pub fn tone_map(linear: &[[f32; 3]], tone: impl Into<Tone>) -> Vec<u8> {
         .collect()
 }
 
-/// NaN becomes 0.
+/// Clamps a value to 0 to 1; NaN becomes 0.
 fn clamped(linear: f32) -> f32 {
     if linear.is_nan() { 0.0 } else { linear.clamp(0.0, 1.0) }
 }
 
-/// Light that curves can be computed of in single precision. NaN becomes 0.
+/// Limits light to values for which curves can be computed in single precision. NaN becomes 0.
 fn finite(linear: f32) -> f32 {
     if linear.is_nan() { 0.0 } else { linear.clamp(0.0, 1.0e15) }
 }
 
-/// The sRGB transfer curve of a value from 0 to 1.
+/// Applies the sRGB transfer curve to a value from 0 to 1.
 fn encode(linear: f32) -> f32 {
     if linear <= 0.003_130_8 { 12.92 * linear } else { 1.055 * linear.powf(1.0 / 2.4) - 0.055 }
 }
 
-/// Rows times a column.
+/// Multiplies the rows of a matrix by a column.
 fn transform(rows: &[[f32; 3]; 3], column: [f32; 3]) -> [f32; 3] {
     rows.map(|[x, y, z]| x * column[0] + y * column[1] + z * column[2])
 }
@@ -113,7 +113,8 @@ mod tests {
 
     use super::*;
 
-    /// Greatest difference from published values, of 255 steps. Rows are linear colours and the values shown.
+    /// Returns the greatest difference from published values, in steps of 255. Rows are linear colours and
+    /// the values shown.
     pub(super) fn farthest(curve: ToneCurve, published: &[([f32; 3], [f32; 3])]) -> f32 {
         let tone = Tone { curve, exposure: 0.0 };
         let far = |(linear, shown): &([f32; 3], [f32; 3])| {

@@ -4,15 +4,16 @@
 
 use super::transform;
 
-/// Linear Rec. 709 to the primaries of the curve, with the desaturation of the rendering transform.
+/// Matrix from linear Rec. 709 to the primaries of the curve, with the desaturation of the rendering
+/// transform.
 const IN: [[f32; 3]; 3] =
     [[0.59719, 0.35458, 0.04823], [0.07600, 0.90834, 0.01566], [0.02840, 0.13383, 0.83777]];
 
-/// Back, with the desaturation of the output transform.
+/// Matrix back to linear Rec. 709, with the desaturation of the output transform.
 const OUT: [[f32; 3]; 3] =
     [[1.60475, -0.53108, -0.07367], [-0.10208, 1.10813, -0.00605], [-0.00327, -0.07276, 1.07602]];
 
-/// Linear Rec. 709 to the linear light of a screen; values may lie outside of 0 to 1.
+/// Converts linear Rec. 709 to the linear light of a screen; values may lie outside of 0 to 1.
 pub(super) fn aces(linear: [f32; 3]) -> [f32; 3] {
     let curve =
         |x: f32| (x * (x + 0.024_578_6) - 0.000_090_537) / (x * (0.983_729 * x + 0.432_951) + 0.238_081);
@@ -26,8 +27,8 @@ mod tests {
 
     #[test]
     fn colours_are_near_those_of_aces() {
-        // OpenColorIO 2.6, cg-config-v2.1.0_aces-v1.3: Linear Rec.709 to sRGB - Display, ACES 1.0 - SDR
-        // Video; of 255 steps, clamped.
+        // Reference values of OpenColorIO 2.6, cg-config-v2.1.0_aces-v1.3: Linear Rec.709 to sRGB - Display,
+        // ACES 1.0 - SDR Video; in steps of 255, clamped.
         let grey = [
             ([0.0; 3], [0.0; 3]),
             ([0.18; 3], [90.77; 3]),

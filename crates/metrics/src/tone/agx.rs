@@ -1,15 +1,15 @@
 //! AgX: picture formation by Troy Sobotka, in the version of Eary Chow that Blender 4 ships as a table.
 //!
 //! Colours are brought closer to grey in Rec. 2020, each channel goes through a sigmoid of its logarithm,
-//! part of the shift of hue that this makes is taken back, and colours are moved away from grey again. All
-//! numbers are those that the authors publish (<https://github.com/EaryChow/AgX_LUT_Gen>,
+//! part of the resulting shift of hue is taken back, and colours are moved away from grey again. All numbers
+//! are those that the authors publish (<https://github.com/EaryChow/AgX_LUT_Gen>,
 //! <https://github.com/sobotka/SB2383-Configuration-Generation>); the sigmoid is Jed Smith's. It is computed
 //! here, where Blender interpolates in a table of 57 x 57 x 57 entries: values differ by 0.2 steps of 255 on
 //! average, and in single saturated colours by up to twelve.
 
 use super::transform;
 
-/// Linear light, Rec. 709 to Rec. 2020 (ITU-R BT.2087), and back.
+/// Matrices of linear light from Rec. 709 to Rec. 2020 (ITU-R BT.2087), and back.
 const REC_2020_FROM_709: [[f32; 3]; 3] = [
     [0.627_403_9, 0.329_283_04, 0.043_313_066],
     [0.069_097_29, 0.919_540_4, 0.011_362_316],
@@ -21,36 +21,36 @@ const REC_709_FROM_2020: [[f32; 3]; 3] = [
     [-0.018_150_763, -0.100_578_9, 1.118_729_7],
 ];
 
-/// Towards grey: primaries turned by 3, -1 and -2 degrees and moved in by 0.4, 0.22 and 0.13.
+/// Matrix towards grey: primaries turned by 3, -1 and -2 degrees and moved in by 0.4, 0.22 and 0.13.
 const INSET: [[f32; 3]; 3] = [
     [0.856_627_15, 0.095_121_24, 0.048_251_606],
     [0.137_318_97, 0.761_242, 0.101_439_04],
     [0.111_898_21, 0.076_799_42, 0.811_302_4],
 ];
 
-/// Away from grey: the inverse of primaries moved in by 0.4, 0.22 and 0.04.
+/// Matrix away from grey: the inverse of primaries moved in by 0.4, 0.22 and 0.04.
 const OUTSET: [[f32; 3]; 3] = [
     [1.127_100_6, -0.110_606_64, -0.016_493_939],
     [-0.141_329_76, 1.157_823_7, -0.016_493_939],
     [-0.141_329_76, -0.110_606_64, 1.251_936_4],
 ];
 
-/// Linear value that is shown as itself.
+/// Middle grey: the linear value that is shown unchanged.
 const MIDDLE_GREY: f32 = 0.18;
-/// Stops below and above middle grey that are shown.
+/// Range that is shown, in stops below and above middle grey.
 const STOPS: (f32, f32) = (10.0, 6.5);
-/// Exponent of the values that the sigmoid gives.
+/// Exponent that is applied to the values of the sigmoid.
 const GAMMA: f32 = 2.4;
 /// Slope of the sigmoid at middle grey.
 const SLOPE: f32 = 2.4;
 /// Sharpness of the sigmoid's bend.
 const POWER: f32 = 1.5;
-/// The share of the shift of hue that stays.
+/// Share of the shift of hue that remains.
 const HUE_SHIFT: f32 = 0.4;
-/// Luminance of linear Rec. 709 for the observer of CIE 2015, which the authors take.
+/// Luminance of linear Rec. 709 for the observer of CIE 2015, which the authors use.
 const LUMINANCE: [f32; 3] = [0.206_773_79, 0.658_129_8, 0.135_096_42];
 
-/// Linear Rec. 709 to the linear light of a screen; values may lie a little outside of 0 to 1.
+/// Converts linear Rec. 709 to the linear light of a screen; values may lie a little outside of 0 to 1.
 pub(super) fn agx(linear: [f32; 3]) -> [f32; 3] {
     let inset = transform(&INSET, transform(&REC_2020_FROM_709, linear));
     let formed = inset.map(|value| sigmoid(position(value)).powf(GAMMA));
@@ -58,18 +58,18 @@ pub(super) fn agx(linear: [f32; 3]) -> [f32; 3] {
     inside_screen(transform(&REC_709_FROM_2020, outset))
 }
 
-/// Place of light between the darkest and the brightest that are shown, in stops: 0 to 1.
+/// Returns the position of light between the darkest and the brightest that are shown, in stops: 0 to 1.
 fn position(light: f32) -> f32 {
-    // The smallest normal number, for what has no logarithm.
+    // The smallest normal number replaces values without a logarithm.
     let stops = (light.max(f32::MIN_POSITIVE) / MIDDLE_GREY).log2();
     ((stops + STOPS.0) / (STOPS.0 + STOPS.1)).clamp(0.0, 1.0)
 }
 
-/// Two hyperbolic arcs that meet at middle grey with the same slope and end at 0 and 1.
+/// Sigmoid of two hyperbolic arcs that meet at middle grey with the same slope and end at 0 and 1.
 fn sigmoid(x: f32) -> f32 {
     let pivot = [STOPS.0 / (STOPS.0 + STOPS.1), MIDDLE_GREY.powf(1.0 / GAMMA)];
     let arc = |x: f32, [width, height]: [f32; 2]| {
-        // Chosen such that the arc reaches its height at its width.
+        // The scale makes the arc reach its height at its width.
         let line = SLOPE * width;
         let scale = line * ((line / height).powf(POWER) - 1.0).powf(-1.0 / POWER);
         let term = SLOPE * x / scale;
@@ -81,7 +81,7 @@ fn sigmoid(x: f32) -> f32 {
     }
 }
 
-/// Least and greatest channel, and the hue as turns around the wheel of HSV; 0 for grey.
+/// Returns the least and greatest channel, and the hue as turns around the wheel of HSV; 0 for grey.
 fn hue([red, green, blue]: [f32; 3]) -> (f32, f32, f32) {
     let (least, most) = (red.min(green).min(blue), red.max(green).max(blue));
     let range = most - least;
@@ -94,8 +94,8 @@ fn hue([red, green, blue]: [f32; 3]) -> (f32, f32, f32) {
     (least, most, sixths / 6.0)
 }
 
-/// A colour with its hue turned towards that of another: what of their difference is not [`HUE_SHIFT`], the
-/// shorter way.
+/// Returns a colour with its hue turned towards that of another, the shorter way, so that [`HUE_SHIFT`] of
+/// their difference remains.
 fn with_hue_towards(colour: [f32; 3], other: [f32; 3]) -> [f32; 3] {
     let ((least, most, own), (_, _, other)) = (hue(colour), hue(other));
     let turn = (other - own + 0.5).rem_euclid(1.0) - 0.5;
@@ -104,7 +104,8 @@ fn with_hue_towards(colour: [f32; 3], other: [f32; 3]) -> [f32; 3] {
     weights.map(|weight| least + (most - least) * weight.clamp(0.0, 1.0))
 }
 
-/// Colours outside of Rec. 709 lose saturation and keep their brightness, the less the darker they are.
+/// Reduces the saturation of colours outside of Rec. 709. They keep their brightness, but the less the darker
+/// they are.
 fn inside_screen(colour: [f32; 3]) -> [f32; 3] {
     let least = colour.into_iter().fold(0.0, f32::min);
     if least == 0.0 {
@@ -115,7 +116,7 @@ fn inside_screen(colour: [f32; 3]) -> [f32; 3] {
     raised.map(|value| if after > before { value * before / after } else { value })
 }
 
-/// Luminance, for dark colours that of the colour and its complement together.
+/// Returns the luminance, for dark colours that of the colour and its complement together.
 fn brightness(colour: [f32; 3]) -> f32 {
     let luminance = |colour: [f32; 3]| (0..3).map(|at| LUMINANCE[at] * colour[at]).sum::<f32>();
     let most = colour.into_iter().fold(f32::NEG_INFINITY, f32::max);
@@ -144,7 +145,8 @@ mod tests {
 
     #[test]
     fn colours_are_those_of_blender() {
-        // Blender 4.4 (bpy 4.4.0): view transform AgX, no look, saved with 16 bits; of 255 steps.
+        // Reference values of Blender 4.4 (bpy 4.4.0): view transform AgX, no look, saved with 16 bits; in
+        // steps of 255.
         let published = [
             ([0.0; 3], [0.0; 3]),
             ([0.18; 3], [117.65; 3]),
@@ -164,7 +166,7 @@ mod tests {
         ];
         let far = farthest(ToneCurve::Agx, &published);
         assert!(far < 1.0, "{far}");
-        // Where Blender's table is coarse.
+        // In these colours Blender's table is coarse.
         let saturated = [
             ([0.0, 0.0, 4.0], [132.25, 157.9, 247.62]),
             ([0.0, 0.0, 1.0], [20.13, 86.08, 209.47]),
