@@ -1,4 +1,4 @@
-//! Empty and tiny scenes, scenes to overflow pools with, and bad input.
+//! Empty and tiny scenes, scenes that overflow pools, and bad input.
 
 use super::case::{AIMED, Answer, Content, Context, Entry, Expectation, Triangle};
 use super::geometry::{aim, plate, point_on, sphere};
@@ -68,7 +68,7 @@ fn single(context: &Context) -> Content {
     Content::new(vec![triangle], rays, Expectation::Oracle)
 }
 
-/// Random triangles: the `index`-th of a case is always the same.
+/// Makes a random triangle: the `index`-th of a case is always the same.
 fn scattered(id: &str, index: usize, size: f32) -> Triangle {
     let mut random = Stream::new(id, 0, index as u64);
     let center = [random.between(-3.0, 3.0), random.between(-3.0, 3.0), random.between(4.0, 8.0)];
@@ -102,7 +102,7 @@ fn long_lists(context: &Context) -> Content {
     let layers = context.parameter as usize;
     let triangles = (0..layers).flat_map(|layer| plate(z(layer), z(layer))).collect();
     let (rays, expect) = context.answered(|random, index| {
-        // From before each layer, so that lists are read to every depth.
+        // Rays start before each layer, so that lists are read to every depth.
         let layer = index % layers;
         let (x, y) = (random.between(-1.5, 1.5), random.between(-1.5, 1.5));
         let answer = if (x - y).abs() < 1e-3 {
@@ -142,7 +142,7 @@ fn poisoned(context: &Context) -> Content {
         };
         let mut triangle = scattered("C5", 1000 + variant, 0.3);
         triangle[place / 3][place % 3] = bad;
-        // Spread among the good ones.
+        // The poisoned triangles are spread among the good ones.
         triangles.insert(variant * 23, triangle);
     }
     let good: Vec<Triangle> = triangles

@@ -10,50 +10,50 @@ pub type Triangle = [[f32; 3]; 3];
 /// Size and seed of a case.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Scale {
-    /// Rays to generate. Cases that consist of a few listed rays have no more than those.
+    /// Number of rays to generate. Cases that consist of a few listed rays have no more than those.
     pub rays: usize,
-    /// Chooses the random rays.
+    /// Seed of the random rays.
     pub seed: u64,
-    /// Meshes in the size of the catalogue, not in one for software drivers.
+    /// True if meshes have the size of the catalogue, and not one for software drivers.
     pub full: bool,
 }
 
 impl Scale {
-    /// Size that every test run affords.
+    /// Size for every test run.
     pub const QUICK: Self = Self { rays: 2000, seed: 1, full: false };
-    /// Enough to bound a failure rate by 2e-5 if none fails.
+    /// Size that bounds a failure rate by 2e-5 if no ray fails.
     pub const FULL: Self = Self { rays: 150_000, seed: 1, full: true };
 }
 
-/// One scene with rays.
+/// Scene with rays.
 #[derive(Clone, Debug)]
 pub struct HardCase {
-    /// Short and unique.
+    /// Short and unique id.
     pub id: &'static str,
-    /// One line that says what it is and what it threatens.
+    /// One line that describes the case and the danger in it.
     pub title: &'static str,
-    /// In the order of their ids. May hold coordinates that loaders must drop.
+    /// Triangles in the order of their ids. They may hold coordinates that loaders must drop.
     pub triangles: Vec<Triangle>,
-    /// Some may be invalid on purpose.
+    /// Rays; some may be invalid on purpose.
     pub rays: Vec<Ray>,
     /// Centre of views.
     pub eye: [f32; 3],
-    /// Answers that are known.
+    /// Answers that are known by construction.
     pub expect: Expectation,
-    /// Size and seed that it was made with.
+    /// Size and seed with which the case was made.
     pub scale: Scale,
-    /// The quantity that is measured.
+    /// Name of the measured quantity.
     pub measure: &'static str,
-    /// Demands, by kind of structure.
+    /// Demands on each kind of structure.
     pub target: Targets,
-    /// |dt| / t that structures which find triangles must stay below, where the catalogue says one.
+    /// Bound of |dt| / t for structures that find triangles, if the catalogue gives one.
     pub largest_dt: Option<f64>,
-    /// The voxels that the case is made for, where it is about voxels.
+    /// Voxels for which the case is made, if it is about voxels.
     pub grid: Option<Grid>,
 }
 
-/// Point that a camera at the eye of a case looks at, relative to the eye. Its angle of view is a right one,
-/// both ways.
+/// Point that a camera at the eye of a case looks at, relative to the eye. Its angle of view is a right angle
+/// in both directions.
 pub const CAMERA_TOWARDS: [f64; 3] = [0.25, 0.125, 1.0];
 
 /// Answers to all rays of a case that are known by construction.
@@ -63,7 +63,7 @@ pub enum Expectation {
     Oracle,
     /// One answer for all rays.
     All(Answer),
-    /// One answer a ray.
+    /// One answer per ray.
     PerRay(Vec<Answer>),
 }
 
@@ -76,18 +76,18 @@ pub enum Answer {
     Miss,
     /// Something is hit, however close to an edge the ray passes: a watertight test finds it.
     Hit,
-    /// As `Hit`, at this t up to the relative tolerance.
+    /// Something is hit, as for `Hit`, at this t up to the relative tolerance.
     HitAt {
-        /// In units of the direction's length.
+        /// Ray parameter in units of the direction's length.
         t: f32,
         /// Relative tolerance of t.
         tolerance: f32,
     },
-    /// As `HitAt`, on this triangle, also if another one lies at the same t.
+    /// Something is hit, as for `HitAt`, on this triangle, even if another one lies at the same t.
     HitOn {
         /// Running index of the triangle.
         primitive: u32,
-        /// In units of the direction's length.
+        /// Ray parameter in units of the direction's length.
         t: f32,
         /// Relative tolerance of t.
         tolerance: f32,
@@ -100,7 +100,7 @@ pub enum Answer {
 }
 
 impl HardCase {
-    /// Known answer to a ray.
+    /// Returns the known answer to a ray.
     pub fn answer(&self, ray: usize) -> Answer {
         match &self.expect {
             Expectation::Oracle => Answer::Oracle,
@@ -109,16 +109,16 @@ impl HardCase {
         }
     }
 
-    /// Positions and indices, three of each for every triangle.
+    /// Returns positions and indices, three of each for every triangle.
     pub fn buffers(&self) -> (Vec<[f32; 3]>, Vec<u32>) {
         (self.triangles.as_flattened().to_vec(), (0..self.triangles.len() as u32 * 3).collect())
     }
 
     /// True if a structure that finds triangles may give this answer to a ray with this verdict.
     ///
-    /// For unambiguous rays the triangle must be the oracle's, and t must lie where rounding may put it, give
-    /// or take `t_tolerance` (relative); for ambiguous rays the answer must be admissible. What is
-    /// stated must hold as well.
+    /// For unambiguous rays the triangle must be the oracle's, and t must lie within its rounding, plus or
+    /// minus `t_tolerance` (relative); for ambiguous rays the answer must be admissible. The answer known by
+    /// construction must hold as well.
     pub fn accepts(&self, ray: usize, verdict: &Verdict, hit: Option<DeviceHit>, t_tolerance: f64) -> bool {
         if hit.is_some_and(|hit| !hit.t.is_finite()) {
             return false;
@@ -134,7 +134,7 @@ impl HardCase {
 }
 
 impl Answer {
-    /// True if a hit or miss is what is stated.
+    /// True if a hit or miss agrees with the answer known by construction.
     pub fn holds_for(&self, hit: Option<DeviceHit>) -> bool {
         let close = |t: f32, tolerance: f32| {
             hit.is_some_and(|hit| (f64::from(hit.t) - f64::from(t)).abs() <= f64::from(tolerance * t.abs()))
@@ -168,11 +168,11 @@ fn oracle_accepts(verdict: &Verdict, hit: Option<DeviceHit>, t_tolerance: f64) -
     }
 }
 
-/// A row of the catalogue.
+/// Row of the catalogue.
 pub(super) struct Entry {
     pub id: &'static str,
     pub title: &'static str,
-    /// Parameter that tells the variants of a case apart; unused (0) where there is one only.
+    /// Parameter that distinguishes the variants of a case; unused (0) if there is only one.
     pub parameter: f32,
     pub build: fn(&Context) -> Content,
 }
@@ -216,12 +216,12 @@ impl Entry {
 }
 
 impl Context {
-    /// The requested number of rays; each from its own stream of random numbers and its index.
+    /// Makes the requested number of rays, each from its own stream of random numbers and its index.
     pub fn rays(&self, ray: impl Fn(&mut Stream, usize) -> Ray) -> Vec<Ray> {
         (0..self.scale.rays).map(|index| ray(&mut self.stream(index), index)).collect()
     }
 
-    /// As [`Context::rays`], with what is known about each.
+    /// Makes rays like [`Context::rays`], with the known answer to each.
     pub fn answered(&self, ray: impl Fn(&mut Stream, usize) -> (Ray, Answer)) -> (Vec<Ray>, Expectation) {
         let (rays, answers) = (0..self.scale.rays).map(|index| ray(&mut self.stream(index), index)).unzip();
         (rays, Expectation::PerRay(answers))
@@ -233,21 +233,22 @@ impl Context {
 }
 
 impl Content {
-    /// A case seen from the origin.
+    /// Makes a case seen from the origin.
     pub fn new(triangles: Vec<Triangle>, rays: Vec<Ray>, expect: Expectation) -> Self {
         Self { triangles, rays, eye: [0.0; 3], expect, grid: None }
     }
 
-    /// Centres the views elsewhere.
+    /// Moves the centre of the views.
     pub fn seen_from(self, eye: [f32; 3]) -> Self {
         Self { eye, ..self }
     }
 
-    /// Sets the voxels that the case is made for.
+    /// Sets the voxels for which the case is made.
     pub fn on(self, grid: Grid) -> Self {
         Self { grid: Some(grid), ..self }
     }
 }
 
-/// Rays aimed at a point have it at t = 1, up to the rounding of their direction and of f32 depth.
+/// Answer to aimed rays: they have their target at t = 1, up to the rounding of their direction and of f32
+/// depth.
 pub(super) const AIMED: Answer = Answer::HitAt { t: 1.0, tolerance: 1e-5 };

@@ -1,4 +1,4 @@
-//! The catalogue: what is measured on each case, and what is demanded of each kind of structure there.
+//! Catalogue: the measured quantity of each case, and the demands on each kind of structure.
 
 use Target::{Counted, Exact, Finite, Law, NoneMissed, Refused};
 
@@ -6,22 +6,22 @@ use Target::{Counted, Exact, Finite, Law, NoneMissed, Refused};
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Target {
     /// No ray that hits gets a miss, however close to an edge it passes; triangle and t are right up to
-    /// rounding. The promise of watertightness.
+    /// rounding. This is the promise of watertightness.
     NoneMissed,
     /// No answer is wrong beyond rounding: no false hit, no other triangle, no NaN.
     Exact,
     /// The rate of errors follows a law in the resolution, or stays between stated bounds.
     Law,
-    /// Both answers are legal; how often each is given is reported.
+    /// Both answers are legal; the rate of each is reported.
     Counted,
-    /// Whatever the answer, it is finite, and the work is bounded.
+    /// Any answer is legal if it is finite and the work is bounded.
     Finite,
     /// The loader refuses the file with a typed error, or reads it as stated.
     Refused,
 }
 
 impl Target {
-    /// In a few words, for tables.
+    /// Description in a few words, for tables.
     pub fn text(self) -> &'static str {
         match self {
             NoneMissed => "P1: none missed",
@@ -40,7 +40,7 @@ impl std::fmt::Display for Target {
     }
 }
 
-/// Demands of a case, by kind of structure.
+/// Demands of a case on each kind of structure.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Targets {
     /// Target of structures that find triangles.
@@ -49,21 +49,21 @@ pub struct Targets {
     pub fragments: Target,
 }
 
-/// A number of the catalogue; its cases are this number, alone or with a variant after a dash.
+/// Number of the catalogue; its cases are this number, alone or with a variant after a dash.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CatalogueRow {
-    /// Such as `G1`.
+    /// Number, such as `G1`.
     pub id: &'static str,
-    /// The quantity that is measured.
+    /// Name of the measured quantity.
     pub measure: &'static str,
-    /// The demands.
+    /// Demands on each kind of structure.
     pub target: Targets,
-    /// Largest error of t on the right triangle, relative, for structures that find triangles: where the
-    /// catalogue states one. Elsewhere the oracle's bounds of rounding hold.
+    /// Largest relative error of t on the right triangle, for structures that find triangles, if the
+    /// catalogue gives one. Otherwise the oracle's bounds of rounding hold.
     pub largest_dt: Option<f64>,
 }
 
-/// The row of a case: that of its id up to the dash; absent if there is none.
+/// Returns the row of a case: that of its id up to the dash; `None` if there is none.
 pub fn catalogue_row(id: &str) -> Option<&'static CatalogueRow> {
     let number = id.split('-').next()?;
     CATALOGUE.iter().find(|row| row.id == number)
@@ -190,7 +190,7 @@ mod tests {
     use super::*;
     use crate::{Scale, case, file_ids, ids};
 
-    /// Letters of the themes with how many numbers each has: 91 in all.
+    /// Letters of the themes, each with its number of rows: 91 in all.
     const THEMES: [(&str, usize); 8] =
         [("G", 12), ("E", 9), ("V", 16), ("Z", 15), ("X", 15), ("C", 10), ("T", 5), ("P", 9)];
 
@@ -201,7 +201,7 @@ mod tests {
             .collect()
     }
 
-    /// Numbers that none of the ids stands for.
+    /// Returns the numbers without an id.
     fn uncovered(ids: &[&str]) -> Vec<String> {
         let stands_for = |id: &str, number: &str| {
             id.strip_prefix(number).is_some_and(|rest| rest.is_empty() || rest.starts_with('-'))

@@ -1,16 +1,16 @@
 use super::case::Triangle;
 
-/// A point inside a triangle as renderers compute it, moved outwards by the bound of its rounding.
+/// Point inside a triangle as renderers compute it, moved outwards by the bound of its rounding.
 pub(super) struct Departure {
     pub origin: [f32; 3],
-    /// Unit, on the counter-clockwise side.
+    /// Unit normal on the counter-clockwise side.
     pub normal: [f64; 3],
 }
 
 impl Departure {
-    /// Leaves the point of a triangle with these weights on its counter-clockwise side.
+    /// Makes the departure from the point of a triangle with these weights, on its counter-clockwise side.
     pub fn new(triangle: &Triangle, weights: [f32; 3]) -> Self {
-        // Seven roundings of three products and two sums, and of the weights themselves.
+        // The bound counts seven roundings: of three products and two sums, and of the weights themselves.
         let gamma = 7.0 * 2.0_f64.powi(-24);
         let point: [f32; 3] =
             std::array::from_fn(|axis| (0..3).map(|i| weights[i] * triangle[i][axis]).sum());
@@ -29,7 +29,7 @@ impl Departure {
         let distance = bound * normal.iter().map(|x| x.abs()).sum::<f64>();
         let origin = std::array::from_fn(|axis| {
             let moved = (f64::from(point[axis]) + normal[axis] * distance) as f32;
-            // One step outwards, so that rounding does not undo the move.
+            // The point moves one more step outwards, so that rounding does not undo the move.
             if normal[axis] > 0.0 {
                 moved.next_up()
             } else if normal[axis] < 0.0 {
@@ -41,8 +41,8 @@ impl Departure {
         Self { origin, normal }
     }
 
-    /// A direction on the side that was left, which leans towards the normal by `lean` so that neighbours
-    /// whose corners are rounded stay behind.
+    /// Returns a direction on the side of the departure, which leans towards the normal by `lean` so that
+    /// neighbours whose corners are rounded stay behind.
     pub fn away(&self, direction: [f32; 3], lean: f32) -> [f32; 3] {
         let cosine: f64 = self.normal.iter().zip(direction).map(|(n, d)| n * f64::from(d)).sum();
         let side = if cosine < 0.0 { -1.0 } else { 1.0 };

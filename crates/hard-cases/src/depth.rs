@@ -63,7 +63,7 @@ fn depth_range(context: &Context) -> Content {
     let triangles = (0..40).flat_map(|k| plate(z(k), z(k))).collect();
     let away = context.parameter > 0.0;
     let (rays, expect) = context.answered(|random, index| {
-        // From between two quads to the one behind or before.
+        // Rays run from between two quads to the one behind or before.
         let k = index % 39;
         let (front, back) = (z(k), z(k + 1));
         let goal = if away { back } else { front };
@@ -108,8 +108,8 @@ fn nearly_coplanar(context: &Context) -> Content {
     let back = front.next_up();
     let triangles = plate(back, 3.0).into_iter().chain(plate(front, 3.0)).collect();
     let (rays, expect) = context.answered(|random, index| {
-        // Off the diagonal, where it is clear which triangle of a quad is meant; straight ahead,
-        // so that t is a difference of depths.
+        // Targets are off the diagonal, where one triangle of a quad is clearly meant; rays run straight
+        // ahead, so that t is a difference of depths.
         let (x, y) = (random.between(-2.9, 2.9), random.between(-2.9, 2.9));
         let below_diagonal = y < x;
         let (first, t, start, direction) =
@@ -118,7 +118,7 @@ fn nearly_coplanar(context: &Context) -> Content {
         if (x - y).abs() < 1e-3 {
             return (ray, Answer::Hit);
         }
-        // The unit in the last place at 5 is wider than half of it at t.
+        // The unit in the last place at 5 is larger than half of the one at t.
         let primitive = if below_diagonal { first } else { first + 1 };
         (ray, Answer::HitOn { primitive, t, tolerance: 2.0_f32.powi(-23) })
     });
@@ -138,7 +138,7 @@ fn greatest_depth(context: &Context) -> Content {
     triangles.extend(plate(9.0, 9.0));
     let rays = context.rays(|random, index| {
         let origin = match index % 3 {
-            // Past the front quad, or from behind it.
+            // Rays start past the front quad, or behind it.
             0 => [0.0; 3],
             1 => [random.between(-1.0, 1.0), random.between(-1.0, 1.0), 5.0],
             _ => [random.between(-0.25, 0.25), random.between(-0.25, 0.25), 1.5],
@@ -199,7 +199,7 @@ fn half_spacing(context: &Context) -> Content {
         };
         let from = place(random, start);
         let mut to = place(random, goal);
-        // From between the pair, not too flat.
+        // Rays start between the pair, and are not too flat.
         if index / 4 % 4 >= 2 {
             to = [from[0] + random.between(-0.01, 0.01), from[1] + random.between(-0.01, 0.01), goal];
         }

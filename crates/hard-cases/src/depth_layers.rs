@@ -53,7 +53,7 @@ fn coincident(context: &Context) -> Content {
     let copies = context.parameter as usize;
     let triangles = (0..copies).flat_map(|_| plate(5.0, 5.0)).collect();
     let (rays, expect) = context.answered(|random, _| {
-        // Off the diagonal, where two ids of one copy touch.
+        // Targets are off the diagonal, where two ids of one copy touch.
         let (x, y) = (random.between(-4.9, 4.9), random.between(-4.9, 4.9));
         let answer = if (x - y).abs() < 1e-3 {
             AIMED
@@ -71,7 +71,7 @@ fn deep(context: &Context) -> Content {
     let half = |k: usize| z(k) * context.parameter;
     let triangles = (0..layers).flat_map(|k| plate(z(k), half(k))).collect();
     let (rays, expect) = context.answered(|random, index| {
-        // Every layer in a scattered order, each from just before and from just behind.
+        // Rays hit every layer in a scattered order, each from just before and from just behind.
         let k = index / 2 * 617 % layers;
         let side = if index % 2 == 0 { -0.4e-3 } else { 0.4e-3 };
         let reach = 0.9 * context.parameter;

@@ -4,7 +4,7 @@ use super::case::{AIMED, Answer, Content, Context, Entry, Expectation, Triangle}
 use super::geometry::{aim, cube, midpoint, point_on, quad, sphere};
 use rasray_reference::oracle::Ray;
 
-/// Coordinate at which numbers are as coarse as 2^-6.
+/// Coordinates at which single-precision numbers are spaced as coarsely as 2^-6.
 const FAR: [f32; 3] = [148376.0, 1234.0, -223423.0];
 
 pub(super) const CASES: &[Entry] = &[
@@ -75,11 +75,11 @@ pub(super) const CASES: &[Entry] = &[
 fn diagonal(context: &Context) -> Content {
     let triangles = quad([0.0, 0.0, 2.0], [1.0, 0.0, 2.0], [1.0, 1.0, 2.0], [0.0, 1.0, 2.0]).to_vec();
     let (rays, expect) = context.answered(|random, index| {
-        // All 1,025 points in a scattered order (641 and 1,025 have no common divisor).
+        // The rays go to all 1,025 points in a scattered order (641 and 1,025 have no common divisor).
         let k = index * 641 % 1025;
         let target = [k as f32 / 1024.0, k as f32 / 1024.0, 2.0];
         let origin = [random.between(-2.0, 3.0), random.between(-2.0, 3.0), random.between(-3.0, 1.0)];
-        // The ends of the diagonal are corners of an open mesh: rounding may pass by.
+        // The ends of the diagonal are corners of an open mesh, where rounding may let a ray pass by.
         (aim(origin, target), if k == 0 || k == 1024 { Answer::Oracle } else { AIMED })
     });
     Content::new(triangles, rays, expect)
@@ -93,7 +93,8 @@ fn sphere_far(context: &Context) -> Content {
     watertight_sphere(context, FAR)
 }
 
-/// Rays of five kinds from inside a sphere: random, at a vertex, at the midpoint of an edge, at each pole.
+/// Makes rays of five kinds from inside a sphere: random, at a vertex, at the midpoint of an edge, at each
+/// pole.
 pub(super) fn watertight_sphere(context: &Context, center: [f32; 3]) -> Content {
     let triangles = sphere(center, 2.0, context.parameter as usize);
     let poles = [2.0, -2.0].map(|z| [center[0], center[1], (f64::from(center[2]) + z) as f32]);
@@ -153,7 +154,8 @@ fn box_corners(context: &Context) -> Content {
         let jitter = if index < targets.len() { 0.0 } else { 0.05 };
         aim(random.near([0.1, 0.2, 0.3], jitter), targets[index % targets.len()])
     });
-    // Twice the four roundings that the catalogue allows: the direction is rounded too.
+    // The tolerance is twice the four roundings that the catalogue allows, since the direction is rounded
+    // too.
     Content::new(triangles, rays, Expectation::All(Answer::HitAt { t: 1.0, tolerance: 4.8e-7 }))
 }
 
@@ -191,7 +193,7 @@ fn along_edges(_: &Context) -> Content {
 
 fn opposite_winding(context: &Context) -> Content {
     let (a, b) = ([0.2, -1.0, 2.0], [-0.3, 1.0, 3.0]);
-    // Both run from a to b, with the edge at different places among their indices.
+    // Both triangles run from a to b, with the edge at different positions among their indices.
     let triangles = vec![[a, b, [-1.0, 0.1, 2.5]], [[1.0, -0.2, 2.2], a, b]];
     let edge = triangles[0];
     let rays = context.rays(|random, _| {
@@ -202,7 +204,7 @@ fn opposite_winding(context: &Context) -> Content {
     Content::new(triangles, rays, Expectation::All(AIMED))
 }
 
-/// Rounding decides whether a ray hits the triangle that it starts on, and nothing else.
+/// Only rounding decides if a ray hits the triangle on which it starts.
 fn on_surface(context: &Context) -> Content {
     let triangles = sphere([-0.2, -0.3, -0.6], 0.1, 24);
     let rays = context.rays(|random, _| {

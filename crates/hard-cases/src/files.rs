@@ -1,23 +1,23 @@
-//! Files that loaders must refuse with a typed error, and their neighbours that they must read.
+//! Files that loaders must refuse with a typed error, and similar files that they must read.
 
 use super::catalogue::{Targets, catalogue_row};
 use super::gltf_text::GltfText;
 use rasray_scene::{Scene, SceneError};
 
-/// A scene file with what loading it must give.
+/// Scene file with the required outcome of loading it.
 #[derive(Clone, Debug)]
 pub struct HardFile {
-    /// Short and unique; the catalogue's number with a variant.
+    /// Short and unique id: the catalogue's number with a variant.
     pub id: &'static str,
-    /// One line that describes it.
+    /// One line that describes the file.
     pub title: &'static str,
-    /// The quantity that is measured.
+    /// Name of the measured quantity.
     pub measure: &'static str,
-    /// Demands, by kind of structure.
+    /// Demands on each kind of structure.
     pub target: Targets,
-    /// A name whose extension tells the format.
+    /// File name, whose extension tells the format.
     pub name: &'static str,
-    /// The file.
+    /// Content of the file.
     pub bytes: Vec<u8>,
     /// Required outcome of loading.
     pub loading: Loading,
@@ -28,19 +28,19 @@ pub struct HardFile {
 pub enum Loading {
     /// An error of this kind; the command ends with exit code 2.
     Refused(Refusal),
-    /// A scene of so many triangles, with a warning of this kind if there is one.
+    /// A scene of so many triangles, with a warning of this kind if one is given.
     Read {
-        /// Triangles of all instances.
+        /// Number of triangles of all instances.
         triangles: usize,
         /// Kind of the only warning.
         warning: Option<&'static str>,
     },
 }
 
-/// Why a loader refuses a file.
+/// Reason why a loader refuses a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Refusal {
-    /// A triangle names a vertex that does not exist.
+    /// A triangle refers to a vertex that does not exist.
     IndexOutOfRange,
     /// The file contradicts itself.
     Invalid,
@@ -49,7 +49,7 @@ pub enum Refusal {
 }
 
 impl Loading {
-    /// True if loading gave this outcome.
+    /// True if loading had this outcome.
     pub fn describes(self, loaded: &Result<Scene, SceneError>) -> bool {
         match (self, loaded) {
             (Self::Refused(refusal), Err(error)) => match refusal {
@@ -186,17 +186,17 @@ const FILES: &[Entry] = &[
     read("T5-chain", "chain as long as the limit", || nodes(chain(512)), 1, None),
 ];
 
-/// Ids and titles of all files.
+/// Iterates over the ids and titles of all files.
 pub(super) fn titles() -> impl Iterator<Item = (&'static str, &'static str)> {
     FILES.iter().map(|entry| (entry.id, entry.title))
 }
 
-/// Ids of all files.
+/// Returns the ids of all files.
 pub fn file_ids() -> Vec<&'static str> {
     FILES.iter().map(|entry| entry.id).collect()
 }
 
-/// All files, one at a time.
+/// Iterates over all files, made one at a time.
 pub fn files() -> impl Iterator<Item = HardFile> {
     FILES.iter().map(|entry| {
         let row = catalogue_row(entry.id).expect("a test looks every file up");
@@ -224,7 +224,7 @@ fn nodes(nodes: String) -> String {
     GltfText { nodes, ..GltfText::triangle() }.text()
 }
 
-/// Nodes below each other; the last one shows the mesh.
+/// Makes a chain of nodes; the last one shows the mesh.
 fn chain(length: usize) -> String {
     let mut nodes: Vec<String> = (1..length).map(|child| format!(r#"{{"children":[{child}]}}"#)).collect();
     nodes.push(r#"{"mesh":0}"#.to_owned());
@@ -240,7 +240,7 @@ mod tests {
     use super::*;
     use rasray_scene_files::LoadOptions;
 
-    /// Loads as the command does: from a folder, by extension.
+    /// Loads a file as the command does: from a folder, by extension.
     fn load(file: &HardFile) -> Result<Scene, SceneError> {
         let folder = tempfile::tempdir().expect("a folder can be made");
         let path = folder.path().join(file.name);

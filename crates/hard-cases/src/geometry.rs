@@ -3,17 +3,17 @@
 use super::case::Triangle;
 use rasray_reference::oracle::Ray;
 
-/// Two triangles that share the diagonal from a to c.
+/// Makes two triangles that share the diagonal from a to c.
 pub(super) fn quad(a: [f32; 3], b: [f32; 3], c: [f32; 3], d: [f32; 3]) -> [Triangle; 2] {
     [[a, b, c], [a, c, d]]
 }
 
-/// A square across the z axis.
+/// Makes a square across the z axis.
 pub(super) fn plate(z: f32, half: f32) -> [Triangle; 2] {
     quad([-half, -half, z], [half, -half, z], [half, half, z], [-half, half, z])
 }
 
-/// A closed box of 12 triangles with shared corners.
+/// Makes a closed box of 12 triangles with shared corners.
 pub(super) fn cuboid(low: [f32; 3], high: [f32; 3]) -> Vec<Triangle> {
     let corner =
         |bits: usize| std::array::from_fn(|axis| if bits >> axis & 1 == 1 { high[axis] } else { low[axis] });
@@ -28,18 +28,18 @@ pub(super) fn cuboid(low: [f32; 3], high: [f32; 3]) -> Vec<Triangle> {
     triangles
 }
 
-/// A closed cube around a point.
+/// Makes a closed cube around a point.
 pub(super) fn cube(center: [f32; 3], half: f32) -> Vec<Triangle> {
     cuboid(center.map(|x| x - half), center.map(|x| x + half))
 }
 
-/// A closed sphere of `rows` by `rows` cells with its poles on the z axis. Corners are computed in
+/// Makes a closed sphere of `rows` by `rows` cells with its poles on the z axis. Corners are computed in
 /// double precision and rounded once, so that neighbours share them.
 pub(super) fn sphere(center: [f32; 3], radius: f64, rows: usize) -> Vec<Triangle> {
     uv_sphere(center, radius, rows, rows)
 }
 
-/// As [`sphere`], of `rows` by `columns` cells.
+/// Makes a sphere like [`sphere`], of `rows` by `columns` cells.
 pub(super) fn uv_sphere(center: [f32; 3], radius: f64, rows: usize, columns: usize) -> Vec<Triangle> {
     use std::f64::consts::{PI, TAU};
     let corner = |row: usize, column: usize| -> [f32; 3] {
@@ -65,24 +65,24 @@ pub(super) fn uv_sphere(center: [f32; 3], radius: f64, rows: usize, columns: usi
     triangles
 }
 
-/// Centre of an edge, rounded once.
+/// Returns the centre of an edge, rounded once.
 pub(super) fn midpoint(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
     std::array::from_fn(|axis| (0.5 * (f64::from(a[axis]) + f64::from(b[axis]))) as f32)
 }
 
-/// The point of a triangle with these weights, rounded once.
+/// Returns the point of a triangle with these weights, rounded once.
 pub(super) fn point_on(triangle: &Triangle, weights: [f32; 3]) -> [f32; 3] {
     std::array::from_fn(|axis| {
         triangle.iter().zip(weights).map(|(v, w)| f64::from(v[axis]) * f64::from(w)).sum::<f64>() as f32
     })
 }
 
-/// `a + b * s`.
+/// Returns `a + b * s`.
 pub(super) fn along(a: [f32; 3], b: [f32; 3], s: f32) -> [f32; 3] {
     std::array::from_fn(|axis| a[axis] + b[axis] * s)
 }
 
-/// A ray from one point to another, which it reaches at t = 1.
+/// Makes a ray from one point to another, which it reaches at t = 1.
 pub(super) fn aim(origin: [f32; 3], target: [f32; 3]) -> Ray {
     Ray::towards(origin, target)
 }

@@ -1,21 +1,21 @@
 //! Small glTF files as text, with their data in a `data:` URI.
 
-/// A file with one mesh, indexed by u32.
+/// File with one mesh, indexed by u32.
 pub(super) struct GltfText {
-    /// Metres.
+    /// Positions, metres.
     pub positions: Vec<[f32; 3]>,
-    /// Unit; none for a flat mesh.
+    /// Unit normals; none for a flat mesh.
     pub normals: Vec<[f32; 3]>,
-    /// Corners of the primitive, as places in `positions`.
+    /// Corners of the primitive, as indices into `positions`.
     pub indices: Vec<u32>,
     /// Mode of the primitive: 4 for a list of triangles, as the format numbers them.
     pub mode: u32,
-    /// The list of nodes in JSON; `"mesh":0` places the mesh.
+    /// List of nodes in JSON; `"mesh":0` places the mesh.
     pub nodes: String,
 }
 
 impl GltfText {
-    /// One triangle in place.
+    /// Makes a file with one placed triangle.
     pub fn triangle() -> Self {
         Self {
             positions: vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]],
@@ -26,7 +26,7 @@ impl GltfText {
         }
     }
 
-    /// The file's text.
+    /// Returns the text of the file.
     pub fn text(&self) -> String {
         let floats = |list: &[[f32; 3]]| -> Vec<u8> {
             list.as_flattened().iter().flat_map(|x| x.to_le_bytes()).collect()

@@ -1,5 +1,5 @@
-//! Interfaces that light passes one after the other: nested and touching glass, sheets, a closed box,
-//! a coarse sphere at its terminator, and rays at the critical angle.
+//! Interfaces that light passes one after the other: nested and touching glass, sheets, a closed box, a
+//! coarse sphere at its terminator, and rays at the critical angle.
 
 use super::case::{AIMED, Answer, Content, Context, Entry, Triangle};
 use super::departure::Departure;
@@ -45,7 +45,7 @@ fn nested_glass(context: &Context) -> Content {
             let ray = Ray { t_min: start + 3.0, ..Ray::new([0.0, 0.0, -3.0], [0.0, 0.0, 1.0]) };
             return (ray, Answer::HitAt { t: interface + 3.0, tolerance: 1e-6 });
         }
-        // Leave an interface for the next one, outwards or inwards.
+        // Rays leave an interface for the next one, outwards or inwards.
         let primitive = random.below(triangles.len());
         let outwards = index % 2 == 0;
         let [a, b, c] = triangles[primitive];
@@ -85,7 +85,7 @@ fn black_box(context: &Context) -> Content {
         let ray = match index % 4 {
             0 | 1 => Ray::new(origin, random.direction()),
             kind => {
-                // At edges, and at corners.
+                // Targets are at edges, and at corners.
                 let mut target = [(); 3].map(|()| HALF * random.sign());
                 if kind == 2 {
                     target[index / 4 % 3] = random.between(-HALF, HALF);
@@ -93,7 +93,7 @@ fn black_box(context: &Context) -> Content {
                 aim(origin, target)
             }
         };
-        // Through the nearest of the three walls ahead.
+        // The exit is through the nearest of the three walls ahead.
         let exit = (0..3)
             .filter(|&axis| ray.direction[axis] != 0.0)
             .map(|axis| {
@@ -110,7 +110,8 @@ fn terminator(context: &Context) -> Content {
     const TO_LIGHT: [f32; 3] = [1.0, 0.0, 0.0];
     let triangles = uv_sphere([0.0; 3], 1.0, 8, 16);
     let (rays, expect) = context.answered(|random, _| {
-        // A point whose smooth normal is nearly at right angles to the light; its flat one may be below.
+        // The point's smooth normal is nearly at right angles to the light, which may be below the flat
+        // triangle.
         let mut primitive = random.below(triangles.len());
         let mut weights = random.weights(0.02);
         for _ in 0..256 {
@@ -136,7 +137,7 @@ fn sheets(context: &Context) -> Content {
         let (x, y) = (random.between(-2.9, 2.9), random.between(-2.9, 2.9));
         let on = |face: usize| 2 * face as u32 + u32::from(y > x);
         let forth = index % 2 == 0;
-        // From outside at first, then from each face on to the next and from the last to nothing.
+        // Rays start outside at first, then go from each face to the next and from the last to nothing.
         let step = index / 2 % (faces + 1);
         let place = |step: usize| if forth { step } else { faces - 1 - step };
         let from = match step {
@@ -172,7 +173,7 @@ fn critical_angle(context: &Context) -> Content {
         let (turn_sine, turn_cosine) = random.between(0.0, std::f32::consts::TAU).sin_cos();
         let leaned = |sine: f32, cosine: f32| [sine * turn_cosine, cosine, sine * turn_sine];
         if index % 2 == 0 {
-            // Inside, towards the face.
+            // Rays start inside, towards the face.
             let cosine = (1.0 - sine * sine).sqrt();
             let depth = random.between(0.1, 0.5);
             let [x, _, z] = leaned(sine, cosine).map(|d| -d * depth / cosine);
@@ -180,12 +181,12 @@ fn critical_angle(context: &Context) -> Content {
             let t = f64::from(1.0 - ray.origin[1]) / f64::from(ray.direction[1]);
             return (ray, Answer::HitAt { t: t as f32, tolerance: 1e-5 });
         }
-        // Outside, as bent as it can be: along the face where reflection would be total.
+        // Outside, the light is bent as far as possible: along the face where reflection would be total.
         let bent = INDEX * sine;
         let cosine = (1.0 - bent * bent).max(0.0).sqrt();
         let primitive = top[random.below(2)];
         let mut departure = Departure::new(&triangles[primitive], random.weights(0.05));
-        // Not past the edges of the face, which it would pass within rounding.
+        // The target avoids the edges of the face, which the ray would pass within rounding.
         for _ in 0..256 {
             if departure.origin[0].abs() < 0.5 && departure.origin[2].abs() < 0.5 {
                 break;

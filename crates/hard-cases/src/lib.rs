@@ -1,5 +1,5 @@
-//! The hard cases of ray tracing: scenes and rays that break tracers, as data with their truth. `rasray
-//! compare hard:ID` and the conformance tests run them.
+//! Hard cases of ray tracing: scenes and rays that break tracers, as data with their truth. `rasray compare
+//! hard:ID` and the conformance tests run them.
 //!
 //! - [`HardCase`] is a case: triangles, rays, an eye, and the answers that are known by construction.
 //!   [`case()`] makes the case of an id, [`cases`] makes all of them.
@@ -51,7 +51,7 @@ pub use views::outermost_pixels;
 use case::Entry;
 use rasray_reference::oracle::Ray;
 
-/// All entries by theme.
+/// Iterates over all entries by theme.
 fn entries() -> impl Iterator<Item = &'static Entry> {
     [
         shape::CASES,
@@ -71,17 +71,17 @@ fn entries() -> impl Iterator<Item = &'static Entry> {
     .flatten()
 }
 
-/// Ids of all cases.
+/// Returns the ids of all cases.
 pub fn ids() -> Vec<&'static str> {
     entries().map(|entry| entry.id).collect()
 }
 
-/// Ids and titles of all cases and files.
+/// Returns the ids and titles of all cases and files.
 pub fn titles() -> Vec<(&'static str, &'static str)> {
     entries().map(|entry| (entry.id, entry.title)).chain(files::titles()).collect()
 }
 
-/// Builds the case with this id; absent if there is none.
+/// Builds the case with this id; `None` if there is none.
 pub fn case(id: &str, scale: Scale) -> Option<HardCase> {
     entries().find(|entry| entry.id == id).map(|entry| entry.build(scale))
 }
@@ -91,7 +91,7 @@ pub fn cases(scale: Scale) -> impl Iterator<Item = HardCase> {
     entries().map(move |entry| entry.build(scale))
 }
 
-/// The ray of a case that was generated at an index with a seed.
+/// Returns the ray of a case that was generated at an index with a seed.
 pub fn replay(id: &str, seed: u64, index: usize) -> Option<Ray> {
     case(id, Scale { rays: index + 1, seed, full: false })?.rays.get(index).copied()
 }

@@ -51,7 +51,8 @@ fn grazing(context: &Context) -> Content {
     let rays = context.rays(|random, _| {
         let triangle = random.below(2);
         let mut origin = Departure::new(&ground[triangle], random.weights(0.0)).origin;
-        // All heights are 0, so the bound is the other axes': the move that renderers make is the same.
+        // All heights are 0, so the bound comes from the other axes: the move that renderers make is the
+        // same.
         origin[1] = origin[1].max(f32::MIN_POSITIVE);
         let azimuth = random.between(0.0, std::f32::consts::TAU);
         Ray {

@@ -46,7 +46,7 @@ fn needle(context: &Context) -> Content {
     Content::new(vec![triangle], rays, Expectation::Oracle)
 }
 
-/// Rays at points of triangles that have none.
+/// Makes rays at points of triangles without area, which are never hit.
 fn never_hit(context: &Context, triangles: Vec<Triangle>, target: [[f32; 3]; 2]) -> Content {
     let rays = context.rays(|random, _| {
         let s = random.between(-0.1, 1.1);
@@ -101,7 +101,7 @@ fn thinnest(context: &Context) -> Content {
     let (rays, expect) = context.answered(|random, index| {
         let k = index % 9;
         let x = 2.0 * k as f32 - 8.0 + random.between(-0.4, 0.4);
-        // Straight ahead, so that heights are not rounded away by the direction.
+        // Rays run straight ahead, so that heights are not rounded away by the direction.
         let ray = Ray::new([x, height(k) * random.between(0.0, 1.0), 0.0], [0.0, 0.0, 1.0]);
         (ray, if k == 0 { Answer::Miss } else { Answer::Oracle })
     });

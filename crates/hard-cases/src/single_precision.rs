@@ -1,14 +1,14 @@
-//! A careful single-precision tracer, one triangle after the other: what a device can be required to do.
-//! If the oracle does not admit its answers, the oracle requires more than single precision holds.
+//! Careful single-precision tracer, one triangle after the other: the requirement that a device can meet. If
+//! the oracle does not admit its answers, the oracle requires more than single precision holds.
 
 use super::*;
 use rasray_metrics::DeviceHit;
 use rasray_reference::oracle::Oracle;
 
-/// Maximum product of rays and triangles that a case is tested with.
+/// Largest product of rays and triangles with which a case is tested.
 const TESTS: usize = 500_000;
 
-/// Watertight test by shearing (Woop, Benthin, Wald 2013) that decides edges by comparing products.
+/// Intersects watertightly by shearing (Woop, Benthin, Wald 2013) and decides edges by comparing products.
 /// Returns t and a bound of its error. Edges belong to the triangle if it is `closed`.
 fn intersect(ray: &Ray, triangle: &Triangle, axis: usize, closed: bool) -> Option<(f32, f32)> {
     let edge = |to: usize| -> [f32; 3] { std::array::from_fn(|i| triangle[to][i] - triangle[0][i]) };
@@ -27,7 +27,7 @@ fn intersect(ray: &Ray, triangle: &Triangle, axis: usize, closed: bool) -> Optio
         let scales = [p[0].abs() + x_shift.abs(), p[1].abs() + y_shift.abs()];
         (x, y, p[2] / d[2], scales)
     });
-    // Products of corners far to one side may all round to the same.
+    // Products of corners far to one side may all round to the same value.
     let apart = |x: [f32; 3]| x.iter().all(|x| *x > 0.0) || x.iter().all(|x| *x < 0.0);
     if apart([a.0, b.0, c.0]) || apart([a.1, b.1, c.1]) {
         return None;
@@ -47,8 +47,8 @@ fn intersect(ray: &Ray, triangle: &Triangle, axis: usize, closed: bool) -> Optio
     let depths = [a.2, b.2, c.2];
     let t = (u * a.2 + v * b.2 + w * c.2) / sum;
     let t = t.max(a.2.min(b.2).min(c.2)).min(a.2.max(b.2).max(c.2));
-    // Every edge function errs by eight roundings of what it adds; that moves t by how far the vertex
-    // opposite is from t. The rest is the rounding of the vertices' own depths.
+    // Every edge function errs by eight roundings of its terms; that moves t by the distance between t and
+    // the depth of the vertex opposite. The rest is the rounding of the vertices' own depths.
     let unit = f32::EPSILON / 2.0;
     let mixed: f32 = [(b, c), (c, a), (a, b)]
         .iter()
@@ -60,7 +60,7 @@ fn intersect(ray: &Ray, triangle: &Triangle, axis: usize, closed: bool) -> Optio
         .sum();
     let farthest = depths.iter().fold(0.0_f32, |far, z| far.max(z.abs()));
     let nearest = depths.iter().fold(f32::INFINITY, |near, z| near.min(z.abs()));
-    // All vertices at one depth leave no doubt about t but its own rounding.
+    // If all vertices have one depth, t has no error but its own rounding.
     let own = 8.0 * unit * if nearest == farthest { t.abs() } else { farthest };
     Some((t, mixed / sum.abs() + own))
 }
@@ -97,8 +97,8 @@ fn closest(ray: &Ray, triangles: &[Triangle], closed: bool) -> Option<DeviceHit>
 #[test]
 fn single_precision_gives_admissible_answers() {
     let mut wrong = Vec::new();
-    // A test's own bound of t decides whether a ray of E9 hits what it starts on, and the device's, which the
-    // oracle follows, is closer than the one above.
+    // A test's own bound of t decides if a ray of E9 hits the surface on which it starts, and the device's
+    // bound, which the oracle follows, is closer than the one above.
     for id in ids().into_iter().filter(|id| *id != "E9") {
         let case = case(id, Scale::QUICK).expect("the id is in the catalogue");
         let (positions, indices) = case.buffers();

@@ -2,12 +2,12 @@ use super::*;
 use rasray_metrics::{DeviceHit, HitConfusion};
 use rasray_reference::oracle::{Oracle, Outcome, Verdict};
 
-/// Answer of a perfect device of single precision.
+/// Returns the answer of a perfect single-precision device.
 fn device_hit(verdict: &Verdict) -> Option<DeviceHit> {
     verdict.outcome.hit().map(|(primitive, t)| DeviceHit { t: t as f32, primitive: Some(primitive) })
 }
 
-/// A check on a case with the verdicts of its rays; returns what is wrong.
+/// Checks a case with the verdicts of its rays; returns the faults.
 fn failures(case: &HardCase) -> Vec<String> {
     let (positions, indices) = case.buffers();
     let oracle = Oracle::new(&positions, &indices, None).expect("buffers are well formed");
@@ -16,7 +16,7 @@ fn failures(case: &HardCase) -> Vec<String> {
     for (index, verdict) in verdicts.iter().enumerate() {
         let answer = case.answer(index);
         let hit = device_hit(verdict);
-        // The case says that a watertight test hits; then no rounding may excuse a miss.
+        // The case says that a watertight test hits, so no rounding may excuse a miss.
         let may_leak = !matches!(answer, Answer::Oracle | Answer::Miss | Answer::Anything { .. })
             && verdict.ambiguous
             && verdict.miss_allowed;
@@ -108,7 +108,7 @@ fn loaders_and_the_oracle_drop_the_same_poisoned_triangles() {
 
 #[test]
 fn most_rays_of_most_cases_are_unambiguous() {
-    // Where rounding decides nothing, a structure has no excuse.
+    // If rounding decides nothing, a structure has no excuse.
     for id in
         ["G9", "G10", "V1", "V3", "V4", "V7", "Z1", "Z2-6", "Z3-5", "Z6", "Z8", "Z9", "Z13", "C2", "C4", "C5"]
     {
@@ -138,7 +138,7 @@ fn acceptance_follows_oracle_and_statement() {
     }
 }
 
-/// A target's name in the tables of the page, which says above them what each means.
+/// Returns a target's name in the tables of the page, which explains the names above the tables.
 fn short(target: Target) -> String {
     let words = target.to_string();
     let name = words.split(':').next().unwrap_or_default();
@@ -146,7 +146,7 @@ fn short(target: Target) -> String {
 }
 
 /// The page has a row for every file and for every number of the catalogue that has rays, with the ids of all
-/// its cases and, of a case that is alone, the title.
+/// its cases and, for a single case, the title.
 #[test]
 fn the_page_lists_every_case() {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/hard-cases.md");
@@ -156,7 +156,7 @@ fn the_page_lists_every_case() {
         let primitives = format!("{}{dt}", short(row.target.primitives));
         let fragments = short(row.target.fragments);
         let target = if primitives == fragments { primitives } else { format!("{primitives}; {fragments}") };
-        // Most cases have this target, and the page does not say it then.
+        // Most cases have this target, and the page then leaves it out.
         let target = if target == "P1; P2" { String::new() } else { target };
         let cases: Vec<_> = titles().into_iter().filter(|(id, _)| catalogue_row(id) == Some(row)).collect();
         let end = format!("| {target} |");

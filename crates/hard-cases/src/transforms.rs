@@ -1,6 +1,6 @@
-//! Meshes placed by mirrored, anisotropic, singular and long chains of transforms. The triangles are
-//! those that the scene loader and the pose make of a glTF file; what they should be follows from a
-//! matrix written out here.
+//! Meshes placed by mirrored, anisotropic, singular and long chains of transforms. The triangles are those
+//! that the scene loader and the pose make from a glTF file; their expected positions follow from a matrix
+//! written out here.
 
 use super::case::{AIMED, Answer, Content, Context, Entry, Expectation, Triangle};
 use super::geometry::{aim, point_on, uv_sphere};
@@ -23,20 +23,20 @@ pub(super) const CASES: &[Entry] = &[
     },
 ];
 
-/// Half turns in a row; an even number of them is no turn at all.
+/// Number of half turns in a row; an even number of them is no turn at all.
 const HALF_TURNS: usize = 1000;
 
-/// A mesh placed by transforms, with the matrix that they amount to in exact arithmetic.
+/// Mesh placed by transforms, with the matrix of their product in exact arithmetic.
 #[derive(Clone, Debug)]
 pub struct Transformed {
-    /// The scene that the loader made of the file.
+    /// Scene that the loader made from the file.
     pub scene: Scene,
     /// Rows of the matrix from the mesh to the world; the last column is the translation, metres.
     pub world_from_mesh: [[f64; 4]; 3],
 }
 
 impl Transformed {
-    /// A point of the mesh in the world, metres.
+    /// Returns a point of the mesh in the world, metres.
     pub fn position(&self, point: [f32; 3]) -> [f64; 3] {
         self.world_from_mesh.map(|row| {
             row[0] * f64::from(point[0])
@@ -46,8 +46,8 @@ impl Transformed {
         })
     }
 
-    /// The direction of a normal of the mesh in the world, not unit: by the adjugate, which is the inverse
-    /// up to a factor and exists for every matrix. It stays on the side that was outside.
+    /// Returns the direction of a normal of the mesh in the world, not unit: by the adjugate, which is the
+    /// inverse up to a factor and exists for every matrix. The normal stays on the outer side.
     pub fn normal(&self, normal: [f32; 3]) -> [f64; 3] {
         let m = &self.world_from_mesh;
         let minor = |row: usize, column: usize| {
@@ -63,7 +63,7 @@ impl Transformed {
     }
 }
 
-/// The placed mesh of a case about transforms (T1 to T4); absent for other cases.
+/// Returns the placed mesh of a case about transforms (T1 to T4); `None` for other cases.
 pub fn transformed(id: &str) -> Option<Transformed> {
     let identity = [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0]];
     let scaled = |x: f64, y: f64, z: f64, translation: [f64; 3]| {
@@ -102,10 +102,10 @@ pub fn transformed(id: &str) -> Option<Transformed> {
     Some(Transformed { scene, world_from_mesh: matrix })
 }
 
-/// Sheared, and mirrored at x = 0.
+/// Matrix of a shear, mirrored at x = 0.
 const SHEAR: [[f64; 4]; 3] = [[-1.0, 0.5, 0.25, 0.25], [0.0, 1.0, -0.75, -0.5], [0.125, 0.0, 1.0, 5.0]];
 
-/// The shear at the root, and below it half turns about one oblique axis.
+/// Makes the shear at the root, and below it half turns about one oblique axis.
 fn half_turns() -> String {
     let m = SHEAR;
     let columns: Vec<String> = (0..4)
@@ -127,18 +127,18 @@ fn half_turns() -> String {
     format!("[{}]", nodes.join(","))
 }
 
-/// No two of its edges or faces are alike, so that a mirrored one differs from a turned one.
+/// Makes a tetrahedron. All its edges and faces differ, so that a mirrored one differs from a rotated one.
 fn tetrahedron() -> GltfText {
     GltfText {
         positions: vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.75, 0.0], [0.25, 0.25, 0.5]],
         normals: Vec::new(),
-        // Counter-clockwise from outside.
+        // The order is counter-clockwise from outside.
         indices: vec![0, 2, 1, 0, 1, 3, 1, 2, 3, 2, 0, 3],
         ..GltfText::triangle()
     }
 }
 
-/// A unit sphere whose normals are its positions.
+/// Makes a unit sphere whose normals are its positions.
 fn smooth_sphere() -> GltfText {
     let mut positions: Vec<[f32; 3]> = Vec::new();
     let mut indices = Vec::new();
@@ -152,7 +152,7 @@ fn smooth_sphere() -> GltfText {
     GltfText { normals: positions.clone(), positions, indices, ..GltfText::triangle() }
 }
 
-/// The triangles of a case as they are posed for the device, with the frame origin in the world's.
+/// Returns the triangles of a case as they are posed for the device, with the frame origin in the world's.
 fn posed(context: &Context) -> Vec<Triangle> {
     let scene = transformed(context.id).expect("every case about transforms has a scene").scene;
     let posed = PosedScene::new(&scene, DVec3::ZERO).expect("a loaded scene is well formed");
@@ -160,7 +160,7 @@ fn posed(context: &Context) -> Vec<Triangle> {
     posed.indices().as_chunks::<3>().0.iter().map(|corners| corners.each_ref().map(corner)).collect()
 }
 
-/// A ray from well outside of a mesh around z = 4 to 5 at a point of one of its triangles.
+/// Makes a ray from well outside of a mesh around z = 4 to 5 at a point of one of its triangles.
 fn from_outside(random: &mut super::Stream, triangle: &Triangle) -> Ray {
     let target = point_on(triangle, random.weights(0.02));
     let direction = random.direction();
@@ -171,7 +171,7 @@ fn from_outside(random: &mut super::Stream, triangle: &Triangle) -> Ray {
 fn outside(context: &Context) -> Content {
     let triangles = posed(context);
     let rays = context.rays(|random, index| from_outside(random, &triangles[index % triangles.len()]));
-    // From where no face of either tetrahedron is seen edge-on.
+    // From this eye no face of either tetrahedron is seen edge-on.
     let eye = if context.id == "T1" { [0.1, 0.2, 2.0] } else { [0.9, -1.5, 3.5] };
     Content::new(triangles, rays, Expectation::All(Answer::Hit)).seen_from(eye)
 }
@@ -191,10 +191,10 @@ fn from_inside(context: &Context) -> Content {
     let rays = context.rays(|random, index| {
         let target = point_on(&triangles[random.below(triangles.len())], random.weights(0.02));
         match index % 3 {
-            // From within the flat and long shape: everything is hit.
+            // Rays start within the flat and long shape, and all of them hit.
             0 => Ray::new([0.0; 3], random.direction()),
             1 => aim([random.between(-0.1, 0.1), 0.0, random.between(-100.0, 100.0)], target),
-            // From above, across its thousandth of thickness.
+            // Rays start above, and cross the shape's thousandth of thickness.
             _ => aim([target[0], target[1] + random.sign(), target[2] + random.between(-1.0, 1.0)], target),
         }
     });
@@ -211,8 +211,8 @@ mod tests {
 
     const IDS: [&str; 4] = ["T1", "T2", "T3", "T4"];
 
-    /// Largest distance of a posed corner from where the matrix puts it, in units in the last place of the
-    /// mesh's greatest coordinate, over all corners of the case.
+    /// Returns the largest distance of a posed corner from its position by the matrix, in units in the last
+    /// place of the mesh's greatest coordinate, over all corners of the case.
     fn drift(transformed: &Transformed, triangles: &[Triangle]) -> f64 {
         let mesh = &transformed.scene.meshes[0];
         let mut worst = 0.0_f64;
@@ -236,7 +236,7 @@ mod tests {
             assert_eq!(triangles.len(), transformed.scene.meshes[0].triangle_count());
             let right = drift(&transformed, &triangles);
             assert!(right <= 1.0, "{id}: off by {right} units");
-            // The drift that the catalogue allows would be seen.
+            // The test would notice the drift that the catalogue allows.
             transformed.world_from_mesh[0][0] += 1e-5;
             let wrong = drift(&transformed, &triangles);
             assert!(wrong > 10.0, "{id}: an error of 1e-5 is {wrong} units only");
@@ -250,8 +250,8 @@ mod tests {
         cross.iter().map(|x| x * x).sum::<f64>().sqrt().atan2(dot)
     }
 
-    /// Largest angle of a normal that the reference shades with from the adjugate's, radians, and how many
-    /// hits had another side in front than the one that the mesh calls outside.
+    /// Returns the largest angle between a normal that the reference shades with and the adjugate's, radians,
+    /// and the number of hits whose front is not the side that the mesh calls outside.
     fn normals(id: &str, world_from_mesh: impl Fn(&Transformed) -> [[f64; 4]; 3]) -> (f64, usize) {
         let case = case(id, Scale { rays: 600, ..Scale::QUICK }).expect("it exists");
         let mut transformed = transformed(id).expect("it is about transforms");
@@ -278,7 +278,7 @@ mod tests {
                 posed.surface(&unit, t as f32 * direction.length(), primitive, Vec2::splat(1.0 / 3.0));
             let corners = mesh.indices.as_chunks::<3>().0[primitive as usize];
             let [a, b, c] = corners.map(|index| Vec3::from(mesh.positions[index as usize]));
-            // The mesh's outside, moved to the world.
+            // The mesh's outside is transformed to the world.
             let outside = transformed.normal((b - a).cross(c - a).to_array());
             let towards: f64 = (0..3).map(|i| outside[i] * f64::from(ray.direction[i])).sum();
             let facing = if towards > 0.0 { -1.0 } else { 1.0 };
@@ -303,7 +303,8 @@ mod tests {
         }
     }
 
-    /// Interpolated normals go with the inverse transpose: with the matrix itself they would be far off.
+    /// Interpolated normals transform with the inverse transpose: with the matrix itself they would be far
+    /// off.
     #[test]
     fn smooth_normals_go_with_the_inverse_transpose() {
         let transformed = transformed("T2").expect("it is about transforms");
@@ -311,7 +312,7 @@ mod tests {
         let mesh = &transformed.scene.meshes[0];
         let (mut worst, mut with_matrix) = (0.0_f64, 0.0_f64);
         for (primitive, corners) in mesh.indices.as_chunks::<3>().0.iter().enumerate() {
-            // At vertex 0, seen along its own normal.
+            // The normal is that of vertex 0, seen along itself.
             let normal = mesh.normals.as_ref().expect("it is smooth")[corners[0] as usize];
             let truth = transformed.normal(normal);
             let length = truth.iter().map(|x| x * x).sum::<f64>().sqrt();

@@ -5,7 +5,7 @@ use super::edges::watertight_sphere;
 use super::geometry::{aim, along, cube, plate, point_on, quad, sphere};
 use rasray_reference::oracle::Ray;
 
-/// Pixels along an edge of a cube face.
+/// Number of pixels along an edge of a cube face.
 const FACE: usize = 512;
 
 pub(super) const CASES: &[Entry] = &[
@@ -75,7 +75,8 @@ fn edge_on(context: &Context) -> Content {
 }
 
 fn tilted(context: &Context) -> Content {
-    // In the plane: the y axis, and the view ray of the middle pixel turned by the angle about y.
+    // Rays run in the plane: along the y axis, and along the view ray of the middle pixel turned by the angle
+    // about y.
     let pixel = 1.0 / FACE as f32;
     let (sine, cosine) = context.parameter.sin_cos();
     let slope = [cosine * pixel + sine, 0.0, cosine - sine * pixel];
@@ -109,7 +110,7 @@ fn head_on(context: &Context) -> Content {
     let rays = context.rays(|random, _| {
         let x = random.between(-2.5, 3.9);
         let target = corner(x, random.between(-3.9, 3.9));
-        // As depth over screen position, the wall falls by z^2 / 5 where this ray rises by it.
+        // In depth over screen position, the wall falls by z^2 / 5 where this ray rises by it.
         aim(along(target, [5.0 - x, 0.0, -(5.0 + x)], -0.1 * random.between(0.5, 1.5)), target)
     });
     Content::new(triangles, rays, Expectation::All(AIMED))
@@ -122,7 +123,7 @@ fn near_plane(context: &Context) -> Content {
         0 => aim([0.0, 0.0, -1.0], [0.0, 0.0, 5.0]),
         1 => aim([-1.0, 0.0, 0.05], [1.0, 0.0, 0.05]),
         _ if index % 2 == 0 => aim(random.near([0.0, 0.0, -1.0], 0.5), random.near([0.0, 0.0, 5.0], 0.5)),
-        // Within 0.1 of the eye plane from end to end.
+        // Rays stay within 0.1 of the eye plane from end to end.
         _ => {
             let depth = |scale: f32| {
                 [scale * random.between(0.1, 1.0), random.between(-0.5, 0.5), random.between(0.0, 0.1)]
@@ -153,7 +154,7 @@ fn along_columns(context: &Context) -> Content {
             return Ray::new(random.near([0.0; 3], 50.0), direction);
         }
         let column = (1 + random.below(FACE - 1)) as f32 * 2.0 / FACE as f32 - 1.0;
-        // column * 99 is exact: nine bits times seven.
+        // The product column * 99 is exact: nine bits times seven.
         let row = random.between(-1.0, 1.0);
         Ray::new([column, row, 1.0], [column * 99.0, random.between(-50.0, 50.0), 99.0])
     });
@@ -161,7 +162,7 @@ fn along_columns(context: &Context) -> Content {
 }
 
 fn pixel_grid(context: &Context) -> Content {
-    // Each depth with one in front of it from where its rays start.
+    // Depths, each with a depth in front of it at which its rays start.
     const DEPTHS: [[f32; 2]; 4] = [[0.25, 0.5], [0.75, 1.0], [4.0, 7.3], [50.0, 100.0]];
     let triangles = DEPTHS.iter().flat_map(|[_, z]| plate(*z, 1.01 * z)).collect();
     let rays = context.rays(|random, index| {
@@ -187,7 +188,7 @@ fn inside_sphere(context: &Context) -> Content {
 fn at_pole(context: &Context) -> Content {
     let eye = [0.0, 0.0, context.parameter];
     let rays = context.rays(|random, _| {
-        // Inward, and clear of the fan of triangles around the pole, which leans by 1.8 degrees.
+        // Rays run inward, and clear of the fan of triangles around the pole, which leans by 1.8 degrees.
         let [x, y, z] = random.direction();
         Ray { t_min: 1e-3, ..Ray::new(eye, [x, y, -z.abs() - 0.05]) }
     });
@@ -203,8 +204,8 @@ fn on_face(context: &Context) -> Content {
     Content::new(cube([0.0; 3], 2.0), rays, Expectation::All(Answer::Hit)).seen_from(eye)
 }
 
-/// Triangles over the outermost pixels of the face towards +z, for views of this many pixels along a side, at
-/// least two.
+/// Makes triangles over the outermost pixels of the face towards +z, for views of `size` pixels along a side,
+/// at least two.
 pub fn outermost_pixels(size: usize) -> Vec<Triangle> {
     let (inner, outer) = (5.0 * (1.0 - 2.0 / size as f32), 5.0);
     let side = |turn: usize| {

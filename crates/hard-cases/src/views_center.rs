@@ -38,7 +38,8 @@ fn closed(context: &Context, radius: f64, ray: impl Fn(&mut Stream, usize) -> Ra
 
 fn seams(context: &Context) -> Content {
     closed(context, 4.0, |random, index| {
-        // One of 12 edges: which axis runs along it, and the signs of the other two.
+        // The ray concerns one of 12 edges, given by the axis that runs along it and the signs of the other
+        // two.
         let edge = index % 12;
         let free = edge % 3;
         let [u, v] = [(free + 1) % 3, (free + 2) % 3];
@@ -52,7 +53,7 @@ fn seams(context: &Context) -> Content {
         };
         if index / 12 % 2 == 0 {
             let size = 1.0 + (index / 24 % 64) as f32 / 64.0;
-            // Every fourth runs along the line where three faces touch.
+            // Every fourth ray runs along the line where three faces touch.
             let rest = [0.0, size, random.between(-1.0, 1.0), random.between(-0.1, 0.1)][index / 24 % 4];
             return Ray::new([0.0; 3], on_seam(size, rest));
         }
@@ -66,7 +67,7 @@ fn corners(context: &Context) -> Content {
         let scale = 10.0_f32.powi((index / 216 % 7) as i32 - 3);
         let (corner, variant) = (index % 8, index / 8 % 27);
         let point: [f32; 3] = std::array::from_fn(|axis| {
-            // Each component one unit in the last place lower, as it is, or higher.
+            // Each component is one unit in the last place lower, unchanged, or higher.
             let nudged = match variant / 3_usize.pow(axis as u32) % 3 {
                 0 => scale.next_down(),
                 1 => scale,
@@ -111,7 +112,7 @@ fn past_center(context: &Context) -> Content {
     passing(context, context.parameter)
 }
 
-/// Rays towards the centre; the origin is moved aside by `distance` along x, y and z.
+/// Makes rays towards the centre; the origin is moved aside by `distance` along x, y and z.
 fn passing(context: &Context, distance: f32) -> Content {
     closed(context, 8.0, |random, index| {
         let origin = match index {
@@ -123,7 +124,7 @@ fn passing(context: &Context, distance: f32) -> Content {
             }
             _ => {
                 let mut origin = random.near([0.0; 3], 4.0);
-                // Where rounding would lose the distance in all three coordinates, one of them is zero.
+                // If rounding would lose the distance in all three coordinates, one of them is set to zero.
                 if distance > 0.0 && origin.map(|x: f32| x + distance) == origin {
                     origin[index % 3] = 0.0;
                 }

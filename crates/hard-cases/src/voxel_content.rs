@@ -1,4 +1,4 @@
-//! Surfaces that a voxel cannot tell apart: opposite normals, several plates in one, walls between two.
+//! Surfaces that a voxel cannot distinguish: opposite normals, several plates in one, walls between two.
 
 use super::case::{AIMED, Answer, Content, Context, Entry, Expectation, Triangle};
 use super::geometry::{aim, cuboid, point_on, quad};
@@ -30,13 +30,13 @@ pub(super) const CASES: &[Entry] = &[
     Entry { id: "X15", title: "plane whose normal favours no axis", parameter: 0.0, build: axis_tie },
 ];
 
-/// A square across the z axis, with its corners in the other order if it is `turned`.
+/// Makes a square across the z axis, with its corners in reverse order if it is `turned`.
 fn square(low: f32, high: f32, z: f32, turned: bool) -> [Triangle; 2] {
     let [a, b, c, d] = [[low, low, z], [high, low, z], [high, high, z], [low, high, z]];
     if turned { quad(a, d, c, b) } else { quad(a, b, c, d) }
 }
 
-/// A ray at a point inside a triangle of a plate across z, from this far next to it along z.
+/// Makes a ray at a point inside a triangle of a plate across z, from a given distance along z.
 fn at_plate(
     random: &mut super::Stream,
     triangles: &[Triangle],
@@ -93,7 +93,7 @@ fn plates(context: &Context) -> Content {
     triangles.extend(Grid::UNIT_64.markers());
     let (rays, expect) = context.answered(|random, index| {
         let k = index % PLATES;
-        // From within the gap before or behind, which is at least 0.3 wide.
+        // Rays start within the gap before or behind, which is at least 0.3 wide.
         let height = random.between(0.05, 0.25) * if (index / PLATES).is_multiple_of(2) { -1.0 } else { 1.0 };
         at_plate(random, &triangles, 2 * k + index / (2 * PLATES) % 2, height, 0.1)
     });
@@ -106,7 +106,7 @@ fn corner_touch(context: &Context) -> Content {
     triangles.extend(Grid::UNIT_64.markers());
     let rays = context.rays(|random, index| {
         let [a, b, c] = random.weights(0.0);
-        // Every other one close to the corner, through the voxel that only the corner touches.
+        // Every other ray is close to the corner, through the voxel that only the corner touches.
         let weights = if index % 2 == 0 { [a, b, c] } else { [1.0 - 0.02 * (b + c), 0.02 * b, 0.02 * c] };
         aim(random.near([31.2, 31.3, 33.5], 0.6), point_on(&touching, weights))
     });
@@ -132,7 +132,7 @@ fn open_and_nested(context: &Context) -> Content {
     triangles.extend(cuboid([30.0; 3], [34.0; 3]));
     triangles.extend(Grid::UNIT_64.markers());
     let (rays, expect) = context.answered(|random, index| match index % 4 {
-        // Within the inner box, between both, and at the open quad from both sides.
+        // Rays start within the inner box, between both, and at the open quad from both sides.
         0 => (Ray::new(random.near([32.0; 3], 1.9), random.direction()), Answer::Hit),
         1 => {
             let mut origin = random.near([32.0; 3], 3.5);
@@ -149,7 +149,7 @@ fn open_and_nested(context: &Context) -> Content {
 }
 
 fn axis_tie(context: &Context) -> Content {
-    // All corners add up to 96, so that the normal is exactly (1, 1, 1).
+    // The coordinates of each corner add up to 96, so that the normal is exactly (1, 1, 1).
     let plane = [[63.0, 17.0, 16.0], [16.0, 63.0, 17.0], [17.0, 16.0, 63.0]];
     let mut triangles = vec![plane];
     triangles.extend(Grid::UNIT_64.markers());

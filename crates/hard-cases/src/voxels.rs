@@ -32,7 +32,7 @@ pub(super) const CASES: &[Entry] = &[
     Entry { id: "X8", title: "rays without end through an empty grid", parameter: 0.0, build: empty_grid },
 ];
 
-/// Components that are each one unit in the last place lower, as they are, or higher: 27 variants.
+/// Returns components that are each one unit in the last place lower, unchanged, or higher: 27 variants.
 fn nudged(point: [f32; 3], variant: usize) -> [f32; 3] {
     std::array::from_fn(|axis| match variant / 3_usize.pow(axis as u32) % 3 {
         0 => point[axis],
@@ -44,12 +44,12 @@ fn nudged(point: [f32; 3], variant: usize) -> [f32; 3] {
 fn diagonal(context: &Context) -> Content {
     const STEP: usize = 8;
     let in_space = context.parameter > 2.0;
-    // The middle of the k-th cell of the diagonal.
+    // The point is the middle of the k-th cell of the diagonal.
     let middle = |k: usize| {
         let s = k as f32 + 0.5;
         [s, s, if in_space { s } else { 0.5 }]
     };
-    // Across the diagonal, in every eighth cell.
+    // The triangles lie across the diagonal, in every eighth cell.
     let across = |k: usize| -> Triangle {
         let v = if in_space { [0.3, 0.3, -0.6] } else { [0.0, 0.0, 0.6] };
         let base = along(middle(k), v, -0.5);
@@ -63,7 +63,7 @@ fn diagonal(context: &Context) -> Content {
             let t = 7.0 / 63.0;
             return (aim(middle(0), middle(63)), Answer::HitOn { primitive: 0, t, tolerance: 1e-5 });
         }
-        // From every cell between two of them, there and back.
+        // Rays run from every cell between two of them, there and back.
         let plate = index % 8;
         let inside = index / 8 % (STEP - 1);
         let forth = index / 56 % 2 == 0 || plate == 0;
@@ -83,10 +83,10 @@ fn between_cells(context: &Context) -> Content {
     for k in 0..15 {
         let x = at(k);
         if k % 2 == 0 {
-            // Reaches into the cells of both sides.
+            // The triangle reaches into the cells of both sides.
             triangles.push([[x, 31.5, 0.0], [x, 31.5, 1.0], [x, 33.0, 0.5]]);
         } else {
-            // An edge in the plane: half of it in the cells of either side.
+            // The triangle has an edge in the plane: half of it is in the cells of either side.
             let half =
                 |low: f32, high: f32| quad([x, low, 0.1], [x, low, 0.9], [x, high, 0.9], [x, high, 0.1]);
             triangles.extend(half(31.5, PLANE));
@@ -116,7 +116,7 @@ fn signed_zeros(context: &Context) -> Content {
         direction[axis] = if forth { 1.0 } else { -1.0 };
         let mut origin = random.near([32.0; 3], 31.0);
         if index / 48 % 2 == 0 {
-            // In planes between cells.
+            // Origins are in planes between cells.
             origin = origin.map(f32::round);
         }
         let t = if forth { 64.0 - origin[axis] } else { origin[axis] };
@@ -157,7 +157,7 @@ fn ends_of_grid(context: &Context) -> Content {
             }
             2 if index == 2 => (Ray::new([64.0; 3], [-1.0; 3]), Answer::HitAt { t: 24.0, tolerance: 1e-6 }),
             2 => (aim([64.0; 3], inside(random)), Answer::Hit),
-            // Along one of the twelve edges, from outside, from its end or from within.
+            // Rays run along one of the twelve edges, from outside, from its end or from within.
             _ => {
                 let mut origin = [end; 3];
                 origin[(axis + 1) % 3] = if index / 24 % 2 == 0 { 0.0 } else { 64.0 };
@@ -175,7 +175,7 @@ fn endless_traversal(context: &Context) -> Content {
     const FROM: [f32; 3] = [-668.0, -340.0, 77.0];
     const TO: [f32; 3] = [404.0, -64.0, -784.0];
     let grid = Grid { low: [-1024.0; 3], cell: 16.0, resolution: 128 };
-    // Across the ray, well inside the cell that the traversal must end in.
+    // The plate is across the ray, well inside the cell in which the traversal must end.
     let (u, v) = ([276.0 / 1107.0, -1072.0 / 1107.0, 0.0], [0.0, 861.0 / 904.0, 276.0 / 904.0]);
     let corner = |s: f32, t: f32| along(along(TO, u, s), v, t);
     let end = [corner(6.0, -3.0), corner(-6.0, -3.0), corner(0.0, 6.0)];
