@@ -204,7 +204,7 @@ fn opposite_winding(context: &Context) -> Content {
     Content::new(triangles, rays, Expectation::All(AIMED))
 }
 
-/// Only rounding decides if a ray hits the triangle on which it starts.
+/// Makes rays that start on triangles; only rounding decides if they hit them.
 fn on_surface(context: &Context) -> Content {
     let triangles = sphere([-0.2, -0.3, -0.6], 0.1, 24);
     let rays = context.rays(|random, _| {

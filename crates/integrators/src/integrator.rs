@@ -169,7 +169,7 @@ pub trait Integrator {
     /// picture is incomplete.
     fn queues(&self) -> Vec<&RayQueue>;
 
-    /// Maximum number of rays in a wave: slots of the smallest queue.
+    /// Returns the largest number of rays in a wave: the slots of the smallest queue.
     fn wave_capacity(&self) -> u32 {
         self.queues().iter().map(|queue| queue.capacity()).min().unwrap_or(0)
     }

@@ -71,7 +71,7 @@ impl Tone {
 }
 
 /// Converts linear light to values as shown: exposure 1, clamped to [0, 1], sRGB transfer curve. NaN becomes
-/// 0. Metrics of perception (PSNR, SSIM, FLIP) are defined on these values.
+/// zero. Metrics of perception (PSNR, SSIM, FLIP) are defined on these values.
 pub fn display_values(image: &Image<'_>) -> Vec<[f32; 3]> {
     image.pixels().iter().map(|pixel| pixel.map(|value| encode(clamped(value)))).collect()
 }

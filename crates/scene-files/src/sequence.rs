@@ -33,7 +33,7 @@ struct Pattern<'a> {
 }
 
 impl<'a> Pattern<'a> {
-    /// The last run of `#` in a name is the number.
+    /// Reads a pattern; the last run of `#` in a name is the number.
     fn of(name: &'a str) -> Option<Self> {
         let end = name.rfind('#')? + 1;
         let before = name[..end].trim_end_matches('#');

@@ -23,7 +23,7 @@ pub struct Mesh {
 }
 
 impl Mesh {
-    /// Number of triangles.
+    /// Returns the number of triangles.
     pub fn triangle_count(&self) -> usize {
         self.indices.len() / 3
     }

@@ -65,7 +65,7 @@ fn position(light: f32) -> f32 {
     ((stops + STOPS.0) / (STOPS.0 + STOPS.1)).clamp(0.0, 1.0)
 }
 
-/// Sigmoid of two hyperbolic arcs that meet at middle grey with the same slope and end at 0 and 1.
+/// Applies a sigmoid of two hyperbolic arcs that meet at middle grey with the same slope and end at 0 and 1.
 fn sigmoid(x: f32) -> f32 {
     let pivot = [STOPS.0 / (STOPS.0 + STOPS.1), MIDDLE_GREY.powf(1.0 / GAMMA)];
     let arc = |x: f32, [width, height]: [f32; 2]| {

@@ -20,7 +20,7 @@ impl<'a> Body<'a> {
         Self { path, bytes, at: header.body, encoding: header.encoding, line: header.lines + 1 }
     }
 
-    /// Number of bytes that are not read yet.
+    /// Returns the number of bytes that are not read yet.
     pub fn left(&self) -> usize {
         self.bytes.len() - self.at
     }

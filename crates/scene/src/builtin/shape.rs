@@ -20,7 +20,7 @@ impl Shapes {
         Self { mesh, ..Self::default() }
     }
 
-    /// Index of the material that the mesh was made with.
+    /// Returns the index of the material with which the mesh was made.
     pub fn material(&self) -> usize {
         self.mesh.material
     }

@@ -1,4 +1,4 @@
-//! The page of built-in scenes against the scenes.
+//! Page of built-in scenes, compared with the scenes.
 
 use rasray_scene::builtin::{NAMES, builtin};
 
@@ -6,7 +6,7 @@ use rasray_scene::builtin::{NAMES, builtin};
 fn the_page_lists_every_scene_with_its_count_of_triangles() {
     let page = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/built-in-scenes.md");
     let page = std::fs::read_to_string(page).expect("the page of built-in scenes");
-    // The first table.
+    // The first table of the page.
     let listed = page.split("\n## ").next().unwrap_or_default();
     let rows: Vec<Vec<&str>> = listed
         .lines()

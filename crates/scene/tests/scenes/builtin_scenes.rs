@@ -14,7 +14,7 @@ fn corners(mesh: &Mesh) -> impl Iterator<Item = [[f32; 3]; 3]> {
     mesh.indices.chunks_exact(3).map(|corners| [0, 1, 2].map(|at| mesh.positions[corners[at] as usize]))
 }
 
-/// Directed edges, by position, that no triangle runs along in the other direction.
+/// Returns the directed edges, by position, along which no triangle runs in the other direction.
 fn open_edges<'a>(meshes: impl IntoIterator<Item = &'a Mesh>) -> Vec<([f32; 3], [f32; 3])> {
     let key = |point: [f32; 3]| point.map(|value| (value + 0.0).to_bits());
     let mut count: HashMap<_, i64> = HashMap::new();
@@ -34,13 +34,14 @@ fn open_edges<'a>(meshes: impl IntoIterator<Item = &'a Mesh>) -> Vec<([f32; 3], 
     open.map(|((from, to), _)| (from.map(f32::from_bits), to.map(f32::from_bits))).collect()
 }
 
-/// Signed volume by the divergence theorem: positive if the fronts of a closed mesh face outwards.
+/// Returns the signed volume by the divergence theorem: positive if the fronts of a closed mesh face
+/// outwards.
 fn volume(mesh: &Mesh) -> f64 {
     let point = |corner: [f32; 3]| DVec3::from_array(corner.map(f64::from));
     corners(mesh).map(|[a, b, c]| point(a).dot(point(b).cross(point(c))) / 6.0).sum()
 }
 
-/// Every scene is well formed: indices, attribute lengths, unit normals on the front side.
+/// Asserts that a scene is well formed: indices, attribute lengths, unit normals on the front side.
 fn assert_well_formed(scene: &Scene) {
     assert_eq!(scene.cameras.len(), 1, "{}", scene.name);
     assert!(is_lit(scene), "{}", scene.name);
@@ -233,7 +234,7 @@ fn a_missing_triangle_opens_a_sphere() {
     assert_eq!(open_edges(&scene.meshes).len(), 3);
 }
 
-/// Triangles above and below a point of the ground.
+/// Returns the numbers of triangles above and below a point of the ground.
 fn layers(scene: &Scene, x: f64, z: f64) -> usize {
     let above = |[a, b, c]: [[f32; 3]; 3]| {
         let side = |from: [f32; 3], to: [f32; 3]| {
@@ -275,7 +276,7 @@ fn atrium_has_textures_masks_sun_and_sky() {
     assert_eq!(scene.lights.len(), 1);
     let Environment::LatLong { width, height, radiance } = &scene.environment else { panic!("a sky") };
     assert_eq!(radiance.len(), (width * height) as usize);
-    // Blue at the top, where the rows begin.
+    // The sky is blue at the top, where the rows begin.
     assert!(radiance[0][2] > radiance[0][0]);
     let (low, high) = bounds(&scene).expect("bounds");
     assert_eq!(low.y, 0.0);
@@ -324,7 +325,7 @@ fn teapots_are_instances_of_one_shape_above_a_mirror() {
         [("teapots:1", 1, 1), ("teapots:3", 3, 3), ("teapots", 37, 7), ("teapots:2k", 2_000, 7)]
     {
         let scene = scene(spec);
-        // The mirror and the lamps are two more.
+        // The mirror and the lamps add two instances and two meshes.
         assert_eq!((scene.instances.len(), scene.meshes.len()), (pots + 2, kinds + 2), "{spec}");
         let (mirror, lamps) = (&scene.meshes[kinds], &scene.meshes[kinds + 1]);
         assert!(scene.meshes[..kinds].iter().all(|pot| pot.indices == scene.meshes[0].indices));
@@ -344,7 +345,7 @@ fn teapots_are_instances_of_one_shape_above_a_mirror() {
     }
 }
 
-/// The ball of `ground=matt` is the mirror, and stands on the ground where no pot does.
+/// The ball of `ground=matt` is the mirror, and stands on the ground in a place without a pot.
 #[test]
 fn teapots_on_matt_ground_have_a_ball_and_as_many_lamps_as_asked() {
     for (lamps, pots) in [(0, 1), (1, 1), (2, 5)] {
@@ -373,7 +374,8 @@ fn teapots_on_matt_ground_have_a_ball_and_as_many_lamps_as_asked() {
     }
 }
 
-/// Triangles of leaves and grass, and how many of them are narrower than a pixel of 640 by 360.
+/// Returns the number of triangles of leaves and grass, and the number of those narrower than a pixel of 640
+/// by 360.
 fn slivers(scene: &Scene) -> (usize, usize) {
     let camera = &scene.cameras[0];
     let view = camera.world_from_camera.inverse();
@@ -424,6 +426,6 @@ fn wind_bends_leaves_and_lets_them_go() {
     };
     assert_eq!(furthest(0.0), 0.0);
     assert!((0.02..0.5).contains(&furthest(1.3)), "{}", furthest(1.3));
-    // After the last gust it is as before.
+    // After the last gust the scene is as at the beginning.
     assert!(furthest(8.0) < 1.0e-5, "{}", furthest(8.0));
 }

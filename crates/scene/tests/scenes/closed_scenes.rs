@@ -6,8 +6,8 @@ use rasray_scene::{Mesh, Moment, Scene};
 
 use crate::made::scene;
 
-/// Directed edges, by the bits of positions, that do not have exactly one triangle along and one against
-/// them.
+/// Returns the directed edges, by the bits of positions, that do not have exactly one triangle along them and
+/// one against them.
 fn unmatched_edges(mesh: &Mesh) -> usize {
     let key = |vertex: u32| mesh.positions[vertex as usize].map(|value| (value + 0.0).to_bits());
     let mut along: HashMap<_, u32> = HashMap::new();
@@ -19,13 +19,13 @@ fn unmatched_edges(mesh: &Mesh) -> usize {
     along.iter().filter(|((from, to), count)| **count != 1 || along.get(&(*to, *from)) != Some(&1)).count()
 }
 
-/// Six times the volume: positive where fronts face outwards.
+/// Returns six times the volume: positive if fronts face outwards.
 fn volume(mesh: &Mesh) -> f64 {
     let point = |vertex: u32| glam::DVec3::from_array(mesh.positions[vertex as usize].map(f64::from));
     mesh.indices.chunks_exact(3).map(|c| point(c[0]).dot(point(c[1]).cross(point(c[2])))).sum()
 }
 
-/// All meshes but those named are closed, with fronts outwards.
+/// Asserts that all meshes but the named ones are closed, with fronts outwards.
 fn assert_closed(spec: &str, open: &[&str]) {
     let scene = scene(spec);
     for mesh in scene.meshes.iter().filter(|mesh| !open.contains(&mesh.name.as_str())) {
@@ -57,7 +57,7 @@ fn the_water_of_the_pool_is_a_closed_volume_at_every_time() {
         let now = water(&rest.at(&moment(seconds)).expect("it has no files"));
         assert_eq!(unmatched_edges(&now), 0, "{seconds} s");
         assert_eq!(now.indices, first.indices);
-        // Still at the beginning, waves of centimetres, and as much water as before.
+        // The water is at rest at the beginning, then has waves of centimetres, and keeps its volume.
         assert_eq!(now.positions == first.positions, seconds == 0.0);
         let moved = now.positions.iter().zip(&first.positions).map(|(a, b)| (a[1] - b[1]).abs());
         assert!(moved.fold(0.0, f32::max) < 0.08, "{seconds} s");

@@ -8,14 +8,14 @@ use rasray_scene::{
     TextureRef, Wrap,
 };
 
-/// The quads of a box, seen counter-clockwise from outside, by the corners' bits (x, y, z).
-/// In order: left, right, floor, ceiling, back (-z), front.
+/// Quads of a box, seen counter-clockwise from outside, by the corners' bits (x, y, z). In order: left,
+/// right, floor, ceiling, back (-z), front.
 const SIDES: [[usize; 4]; 6] =
     [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]];
 const FLOOR: usize = 2;
 const FRONT: usize = 5;
 
-/// A box of this size around the origin without some of its sides.
+/// Makes a box of this size around the origin without some of its sides.
 fn box_mesh(size: [f32; 3], inwards: bool, without: &[usize]) -> Mesh {
     let corner = |bits: usize| [0, 1, 2].map(|axis| size[axis] * ((bits >> axis & 1) as f32 - 0.5));
     let mut indices = Vec::new();
@@ -110,7 +110,7 @@ fn size_and_place_in_the_world_do_not_matter() {
     }
 }
 
-/// A box with walls of its own on both sides, without some sides of both.
+/// Makes a box with walls of its own on both sides, without some sides of both.
 fn lined(without: &[usize]) -> Vec<(Mesh, DAffine3)> {
     vec![
         (box_mesh([2.0; 3], false, without), DAffine3::IDENTITY),
@@ -123,7 +123,7 @@ fn hollow_things_are_seen_from_outside() {
     for without in [&[][..], &[FLOOR], &[FRONT], &[0], &[FLOOR, FRONT]] {
         assert!(!stands_inside(&scene_of(lined(without))), "without {without:?}");
     }
-    // Things inside, as in a machine, make no room of it.
+    // Objects inside, as in a machine, do not make it a room.
     let part = |x: f64| (box_mesh([0.3; 3], false, &[]), DAffine3::from_translation(DVec3::new(x, 0.5, 0.0)));
     let machine = [lined(&[]), vec![part(-0.6), part(0.0), part(0.6)]].concat();
     assert!(!stands_inside(&scene_of(machine)));
@@ -131,7 +131,7 @@ fn hollow_things_are_seen_from_outside() {
 
 #[test]
 fn a_building_made_for_its_inside_is_seen_from_inside() {
-    // A house around four rows of columns, with more surface in it than on it.
+    // The scene is a house around four rows of columns, with more surface in it than on it.
     let mut parts = vec![
         (box_mesh([10.4, 3.4, 4.4], false, &[]), DAffine3::IDENTITY),
         (box_mesh(HALL, true, &[]), DAffine3::IDENTITY),
@@ -220,8 +220,8 @@ fn what_is_broken_or_too_large_is_seen_from_outside() {
     assert!(!stands_inside(&heavy), "more than 2^23 triangles");
 }
 
-/// A sky of one colour everywhere is no sky, and one that outshines white surfaces or leaves them dark no
-/// default.
+/// A sky of one colour everywhere would show no shape, and a good default light neither outshines white
+/// surfaces nor leaves them dark.
 #[test]
 fn the_default_light_shows_grey_things_before_grey() {
     let Environment::LatLong { width, height, radiance } = default_light() else { panic!("a map") };
@@ -234,7 +234,7 @@ fn the_default_light_shows_grey_things_before_grey() {
         let solid_angle = polar.sin() * 2.0 * std::f64::consts::PI.powi(2) / f64::from(width * height);
         (DVec3::new(polar.sin() * azimuth.cos(), polar.cos(), polar.sin() * azimuth.sin()), solid_angle)
     };
-    // Radiance of a surface of base colour 0.8, by the direction it faces.
+    // The closure returns the radiance of a surface of base colour 0.8, by the direction that it faces.
     let shown = |normal: DVec3| -> f64 {
         let light = radiance.iter().enumerate().map(|(index, radiance)| {
             let (direction, solid_angle) = direction(index);
@@ -253,8 +253,8 @@ fn the_default_light_shows_grey_things_before_grey() {
     }
 }
 
-/// Two triangles of a square metre each: one grey, and one of this material with these corners in the
-/// texture.
+/// Makes two triangles of a square metre each: one grey, and one of this material with these texture
+/// coordinates at its corners.
 fn next_to(material: Material, uv: [f32; 2]) -> Scene {
     let triangle = |x: f32, material| Mesh {
         positions: vec![[x, 0.0, 0.0], [x + 2.0, 0.0, 0.0], [x, 1.0, 0.0]],
@@ -280,18 +280,18 @@ fn next_to(material: Material, uv: [f32; 2]) -> Scene {
 #[test]
 fn what_glows_a_little_is_no_light() {
     let glow = |emission: f32| Material { emission: [emission; 3], ..Material::default() };
-    // Half of the surface glows, from one side: 0.1 is 0.05 on average.
+    // Half of the surface emits, from one side: 0.1 is 0.05 on average.
     assert!(is_lit(&next_to(glow(0.101), [0.0; 2])));
     assert!(!is_lit(&next_to(glow(0.099), [0.0; 2])));
     assert!(is_lit(&next_to(Material { double_sided: true, ..glow(0.051) }, [0.0; 2])), "from both");
-    // By luminance.
+    // The mean is by luminance.
     assert!(!is_lit(&next_to(Material { emission: [0.0, 0.0, 1.0], ..Material::default() }, [0.0; 2])));
     assert!(is_lit(&next_to(Material { emission: [0.0, 1.0, 0.0], ..Material::default() }, [0.0; 2])));
     // Unlit surfaces emit their base colour.
     let unlit = |base_color| Material { unlit: true, base_color, ..Material::default() };
     assert!(is_lit(&next_to(unlit([0.051, 0.051, 0.051, 1.0]), [0.0; 2])));
     assert!(!is_lit(&next_to(unlit([0.049, 0.049, 0.049, 1.0]), [0.0; 2])));
-    // Where nothing is placed nothing glows, and lights that are out light nothing.
+    // Without instances no surface emits, and lights without intensity light nothing.
     let mut nothing = next_to(glow(1.0), [0.0; 2]);
     nothing.instances.pop();
     assert!(!is_lit(&nothing));
@@ -318,7 +318,7 @@ fn emission_is_what_its_texture_leaves_of_it() {
     assert!(!is_lit(&mirrored));
     mirrored.textures[0].wrap_u = Wrap::Mirror;
     assert!(is_lit(&mirrored));
-    // A texture that is not there counts as white.
+    // A missing texture counts as white.
     mirrored.images.clear();
     assert!(is_lit(&mirrored));
 

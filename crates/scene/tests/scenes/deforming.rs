@@ -17,7 +17,7 @@ fn mesh<'a>(scene: &'a Scene, name: &str) -> &'a Mesh {
     scene.meshes.iter().find(|mesh| mesh.name == name).unwrap_or_else(|| panic!("there is a mesh {name}"))
 }
 
-/// Vertices in the world.
+/// Returns the positions of vertices in the world.
 fn placed(scene: &Scene, name: &str) -> Vec<DVec3> {
     let instance = scene.instances.iter().find(|instance| instance.name == name).expect("an instance");
     let point =
@@ -93,7 +93,7 @@ fn the_walker_ends_as_it_begins_and_its_normals_stay_on_their_side() {
                 assert!((0..3).all(|k| (normal(k).length() - 1.0).abs() < 1.0e-5));
                 against += usize::from((0..3).any(|k| normal(k).dot(face) < 0.0));
             }
-            // Where skin is folded, as in an armpit, single triangles turn.
+            // Where skin is folded, as in an armpit, single triangles flip.
             assert!(against * 100 <= mesh.triangle_count(), "{part} at {step}/12: {against} turned");
         }
     }
@@ -114,7 +114,7 @@ fn standing_feet_do_not_slide_and_nothing_is_below_the_ground() {
             longest = longest.max(a.distance(*b));
         }
     }
-    // In that time the body moves by 11 mm.
+    // In this time the body moves by 11 mm.
     assert!(
         standing > 100 && longest < 0.001,
         "{standing} vertices stand, the farthest moves by {longest} m"
@@ -147,7 +147,7 @@ fn the_cloth_falls_over_the_ball_and_keeps_its_triangles() {
         let normals = cloth.normals.as_ref().expect("smooth");
         assert!(normals.iter().all(|n| (DVec3::from(n.map(f64::from)).length() - 1.0).abs() < 1.0e-5));
     }
-    // Earlier moments make no difference, nor do copies, nor times that are out of range.
+    // Earlier moments make no difference, and neither do copies or times out of range.
     let (fresh, used) = (scene("cloth-ball:2k"), scene("cloth-ball:2k"));
     let later = at(&used.clone(), 0.7);
     assert_eq!(mesh(&at(&later, 0.4), "cloth").positions, mesh(&at(&fresh, 0.4), "cloth").positions);

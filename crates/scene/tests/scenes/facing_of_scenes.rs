@@ -1,4 +1,4 @@
-//! Fragments saved where each triangle is kept in one of three views.
+//! Share of fragments that is saved if each triangle is kept in one of three views.
 
 use approx::assert_abs_diff_eq;
 use rasray_scene::facing::Facing;
@@ -6,7 +6,7 @@ use rasray_scene::{Instance, Mesh, Scene};
 
 use crate::made::scene;
 
-/// Facing of the triangle (0, u, v).
+/// Returns the facing of the triangle (0, u, v).
 fn facing(u: [f32; 3], v: [f32; 3]) -> Facing {
     let mesh = Mesh { positions: vec![[0.0; 3], u, v], indices: vec![0, 1, 2], ..Mesh::default() };
     let instance = Instance { name: "it".to_owned(), mesh: 0, world_from_mesh: glam::DAffine3::IDENTITY };
@@ -18,7 +18,7 @@ fn directions_decide_what_one_view_saves() {
     let wall = facing([1.0, 0.0, 0.0], [0.0, 1.0, 0.0]);
     assert_eq!((wall.most, wall.all), (0.5, 0.5));
     assert_eq!(wall.saved_by_one_view(), Some(0.0));
-    // It faces (0, 1, 1), and (1, 1, 1).
+    // The triangle faces (0, 1, 1), and (1, 1, 1).
     let slope = facing([1.0, 0.0, 0.0], [0.0, 1.0, -1.0]);
     assert_eq!(slope.saved_by_one_view(), Some(0.5));
     let corner = facing([1.0, -1.0, 0.0], [0.0, 1.0, -1.0]).saved_by_one_view().expect("it has an area");
@@ -29,7 +29,7 @@ fn directions_decide_what_one_view_saves() {
 
 #[test]
 fn a_sphere_saves_what_all_directions_do() {
-    // Over directions spread evenly, an octant of them.
+    // The directions are spread evenly over an octant.
     let mut sums = (0.0, 0.0);
     let steps = 400;
     for i in 0..steps {

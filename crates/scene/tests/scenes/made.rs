@@ -1,14 +1,14 @@
-//! Built-in scenes for the tests of this program, and what they count.
+//! Built-in scenes for the tests of this program, and their triangle counts.
 
 use rasray_scene::Scene;
 use rasray_scene::builtin::builtin;
 
-/// A built-in scene.
+/// Makes a built-in scene.
 pub fn scene(spec: &str) -> Scene {
     builtin(spec).unwrap_or_else(|| panic!("{spec} is a built-in")).unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// Triangles of all instances.
+/// Counts the triangles of all instances.
 pub fn placed_triangles(scene: &Scene) -> usize {
     scene.instances.iter().map(|instance| scene.meshes[instance.mesh].triangle_count()).sum()
 }

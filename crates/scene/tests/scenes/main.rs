@@ -1,4 +1,4 @@
-//! Scenes made in code: built-in ones, poses, default views, and what workloads need of them.
+//! Scenes made in code: built-in ones, poses, default views, and the needs of workloads.
 
 mod builtin_page;
 mod builtin_scenes;

@@ -22,7 +22,7 @@ fn texture(index: usize, uv_set: u32) -> Option<TextureRef> {
     Some(TextureRef { texture: index, uv_set, uv_transform: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]] })
 }
 
-/// One triangle that has every attribute, every texture kind, every term of a material, and all lights.
+/// Makes one triangle that has every attribute, every texture kind, every term of a material, and all lights.
 fn everything() -> Scene {
     let image = Image { name: "image".to_owned(), width: 4, height: 4, rgba8: vec![255; 64] };
     let sampled = |image| Texture {

@@ -1,4 +1,4 @@
-//! Scenes at a time: keys and what lies between them, clips that compete, skins, morph targets, cameras and
+//! Scenes at a time: keys and the values between them, clips that compete, skins, morph targets, cameras and
 //! lights.
 
 use glam::{DAffine3, DQuat, DVec3};
@@ -22,7 +22,7 @@ fn clip(channels: Vec<Channel>) -> Clip {
     Clip { name: "clip".to_owned(), duration: 3.0, channels }
 }
 
-/// A child before its parent, and a clip of one channel.
+/// Makes a child before its parent, and a clip of one channel.
 fn rig(channel: Channel) -> Rig {
     Rig {
         nodes: vec![node("child", Some(1), DVec3::X), node("parent", None, DVec3::ZERO)],
@@ -57,7 +57,7 @@ fn between_keys_lies_what_the_channel_says() {
         assert_close(moved(Interpolation::Step, &keys, seconds), step);
         assert_close(moved(Interpolation::Linear, &keys, seconds), linear);
     }
-    // x = t^2 from 0 to 2: tangents are per second, in before and out after each value.
+    // The curve is x = t^2 from 0 to 2: tangents are per second, in before and out after each value.
     let spline = [[9.0; 3], [0.0; 3], [0.0; 3], [4.0, 0.0, 0.0], [4.0, 0.0, 0.0], [9.0; 3]];
     for seconds in [1.0, 1.25, 2.0, 2.5, 3.0] {
         let t = seconds - 1.0;
@@ -68,7 +68,7 @@ fn between_keys_lies_what_the_channel_says() {
 #[test]
 fn rotations_take_the_short_way_at_constant_speed() {
     let half = std::f32::consts::FRAC_1_SQRT_2;
-    // A quarter turn about z, its end written as the other of the two quaternions that mean it.
+    // The rotation is a quarter turn about z; its end is written as the other of the two quaternions for it.
     let turn = vec![[0.0, 0.0, 0.0, 2.0], [0.0, 0.0, -half, -half]];
     let rig = rig(channel(1, Interpolation::Linear, ChannelValues::Rotation(turn)));
     for (seconds, degrees) in [(1.0, 0.0_f64), (1.5, 22.5), (2.0, 45.0), (3.0, 90.0)] {
@@ -95,8 +95,8 @@ fn clips_that_animate_the_same_property_are_not_played_at_once() {
     assert_eq!(rig.compatible_clips(), [0, 2, 3]);
 }
 
-/// Two nodes show one mesh with a morph target, of which one is animated; a third has a mesh that two joints
-/// hold.
+/// Makes two nodes that show one mesh with a morph target, one of them animated; a third node has a mesh that
+/// follows two joints.
 fn crowd() -> Scene {
     let triangle = |name: &str| Mesh {
         name: name.to_owned(),
@@ -140,8 +140,8 @@ fn crowd() -> Scene {
                     skin: 0,
                     per_vertex: 8,
                     joints: [0, 1, 0, 0, 0, 0, 0, 1].repeat(3),
-                    // The first vertex follows the still joint, the second the other, the third a half of
-                    // each.
+                    // The first vertex follows the still joint, the second the other, the third each joint by
+                    // one half.
                     weights: [
                         [1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0],
                         [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0],
@@ -188,8 +188,8 @@ fn meshes_cameras_and_lights_are_where_their_nodes_are() {
     assert_eq!(corners(0), [DVec3::ZERO, DVec3::X, DVec3::Y]);
     let half = DVec3::new(0.0, 1.0, 0.5);
     assert_eq!(corners(1), [half, half + DVec3::X, half + DVec3::Y]);
-    // Half a turn in the whole clip, a quarter now: the second joint takes x to y, the mean of (0, 1) and
-    // (-1, 0) is exact, and none of it is rounded at a million metres.
+    // The clip makes half a turn, now a quarter: the second joint takes x to y, the mean of (0, 1) and (-1,
+    // 0) is exact, and no position is rounded at a million metres.
     let far = DVec3::new(1.0e6, 0.0, 0.0);
     for (found, expected) in corners(2).into_iter().zip([DVec3::ZERO, DVec3::Y, DVec3::new(-0.5, 0.5, 0.0)]) {
         assert!((found - far).abs_diff_eq(expected, 1.0e-7), "{found}");
@@ -202,7 +202,7 @@ fn meshes_cameras_and_lights_are_where_their_nodes_are() {
     assert!(matches!(scene.lights[1], Light::Directional { direction, .. } if direction == DVec3::NEG_Z));
 }
 
-/// A scene at a moment is a scene: shown at another one it is what the scene at rest is then.
+/// A scene at a moment is a scene: shown at another moment, it equals the scene at rest shown at that moment.
 #[test]
 fn a_scene_at_a_moment_can_be_shown_at_another() {
     let at = |scene: &Scene, seconds: f64| scene.at(&Moment { seconds, clips: vec![0] }).expect("a rig");

@@ -1,4 +1,4 @@
-//! The stadium: large and small at once, and a bench for every ten seats.
+//! Stadium: large and small at once, and a bench for every ten seats.
 
 use std::collections::HashMap;
 

@@ -212,8 +212,8 @@ fn rounds(bounces: u32, blend: bool) -> [u32; 2] {
 /// Returns the ratio of the radius of a sample, numbered from 0, to that of the first: the root of the
 /// product of (k + alpha) / (k + 1) over all k from 1 to the sample's number.
 fn shrunk(sample: u32) -> f64 {
-    // From here on the product is computed as a quotient of gamma functions, to 10 digits by Stirling's
-    // series.
+    // Number of the sample from which on the product is computed as a quotient of gamma functions, to 10
+    // digits by Stirling's series.
     const EXACT: u32 = 4096;
     if sample <= EXACT {
         let factors = (1..=sample).map(|k| (f64::from(k) + KEPT_SHARE) / (f64::from(k) + 1.0));

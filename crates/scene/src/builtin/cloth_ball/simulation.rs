@@ -75,7 +75,7 @@ impl Simulation {
         }
     }
 
-    /// Number of squares along a side.
+    /// Returns the number of squares along a side.
     pub fn squares(&self) -> usize {
         self.squares
     }
@@ -85,7 +85,7 @@ impl Simulation {
         &self.positions
     }
 
-    /// Number of steps per second.
+    /// Returns the number of steps per second.
     fn rate(&self) -> u64 {
         STEPS * (self.squares as u64).div_ceil(SQUARES)
     }
@@ -189,8 +189,8 @@ impl Simulation {
     }
 }
 
-/// Distance that vertices keep from the ball and the ground, metres, so that the surface between them stays
-/// clear too.
+/// Returns the distance that vertices keep from the ball and the ground, metres, so that the surface between
+/// them stays clear too.
 fn clearance(squares: usize) -> f64 {
     let square = SIDE / squares as f64;
     // Depth of the centre of a square's diagonal below the sphere that its ends lie on.
@@ -241,7 +241,7 @@ fn slowed(position: DVec3, before: DVec3, normal: DVec3, most: f64) -> DVec3 {
 mod tests {
     use super::*;
 
-    /// FNV-1a hash of all bits.
+    /// Returns the FNV-1a hash of all bits.
     fn checksum(simulation: &Simulation) -> u64 {
         let numbers = simulation.positions().iter().flat_map(|position| position.to_array());
         numbers.flat_map(|number| number.to_bits().to_le_bytes()).fold(0xcbf2_9ce4_8422_2325, |hash, byte| {

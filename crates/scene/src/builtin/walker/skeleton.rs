@@ -36,7 +36,7 @@ pub(super) enum Side {
 impl Side {
     pub const BOTH: [Self; 2] = [Self::Left, Self::Right];
 
-    /// Sign of the side along x: the figure looks along +z, its left hand is at +x.
+    /// Returns the sign of the side along x: the figure looks along +z, its left hand is at +x.
     pub fn sign(self) -> f64 {
         if self == Self::Left { 1.0 } else { -1.0 }
     }
@@ -69,7 +69,7 @@ impl Side {
         self.thigh() + 3
     }
 
-    /// Vector from the shoulder to the hand.
+    /// Returns the vector from the shoulder to the hand.
     pub fn along_arm(self) -> DVec3 {
         DVec3::new(self.sign() * ARM_ANGLE.sin(), -ARM_ANGLE.cos(), 0.0)
     }
