@@ -37,7 +37,7 @@ pub enum DenoiseError {
     /// The library has another version than 2, with other functions.
     #[error("{} is not version 2 of Open Image Denoise: {reason}", name.display())]
     Unsuitable {
-        /// The library.
+        /// Name of the library.
         name: OsString,
         /// Function that the library lacks, or its version.
         reason: String,

@@ -158,7 +158,7 @@ fn empty(mesh: &Mesh) -> Mesh {
 struct Frames {
     sequence: Sequence,
     meshes: Vec<usize>,
-    /// The meshes of the scene, empty.
+    /// Meshes of the scene, without triangles.
     templates: Vec<Mesh>,
     /// Names of the scene's materials.
     materials: Vec<String>,

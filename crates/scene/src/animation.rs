@@ -26,7 +26,7 @@ pub struct Rig {
     pub lights: Vec<usize>,
 }
 
-/// A node of the graph.
+/// Node of the graph.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RigNode {
     /// Name from the file.
@@ -74,7 +74,7 @@ pub struct Placement {
     pub node_from_mesh: DAffine3,
 }
 
-/// A named animation.
+/// Named animation.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Clip {
     /// Name from the file, or a generated one.
@@ -120,11 +120,11 @@ pub enum ChannelValues {
 /// Value between two keys.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Interpolation {
-    /// The earlier key.
+    /// Value of the earlier key.
     Step,
-    /// A straight line, on the sphere for rotations.
+    /// Linear interpolation, on the sphere for rotations.
     Linear,
-    /// A cubic Hermite spline.
+    /// Cubic Hermite spline.
     CubicSpline,
 }
 

@@ -1,4 +1,4 @@
-//! The node graph: a forest, traversed without recursion, multiplied out in f64.
+//! Node graph: a forest, traversed without recursion, multiplied out in f64.
 
 use glam::DAffine3;
 

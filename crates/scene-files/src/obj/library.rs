@@ -1,4 +1,4 @@
-//! The statement `mtllib`.
+//! Reader of the statement `mtllib`.
 
 use std::path::Path;
 

@@ -1,4 +1,4 @@
-//! The bounds of a scene.
+//! Bounds of a scene.
 
 use glam::DVec3;
 
