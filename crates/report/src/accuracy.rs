@@ -1,32 +1,32 @@
-//! Accuracy of a run: hits against the oracle, images against the reference, hard cases against what is
-//! stated of them.
+//! Accuracy of a run: hits against the oracle, images against the reference, and hard cases against their
+//! statements.
 
 use crate::absent::absent;
 use rasray_metrics::{HitConfusion, Rate};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
-/// Hits against the oracle; counts are over unambiguous rays, unless their name says otherwise.
+/// Errors of hits against the oracle. Counts are over unambiguous rays, unless their name says otherwise.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Accuracy {
-    /// Rays whose answer was compared.
+    /// Number of rays whose answer was compared.
     pub rays: u64,
-    /// Rays that no f32 program can decide.
+    /// Number of rays that no f32 program can decide.
     pub ambiguous: u64,
-    /// Ambiguous rays whose answer is none of the candidates.
+    /// Number of ambiguous rays whose answer is none of the candidates.
     pub ambiguous_lost: u64,
-    /// Hits that were not found.
+    /// Number of hits that were not found.
     pub missed: u64,
-    /// Hits where there is nothing.
+    /// Number of hits reported where there is nothing.
     pub false_hits: u64,
-    /// Hits of another primitive; absent where the structure does not know the primitive.
+    /// Number of hits on another primitive; absent where the structure does not know the primitive.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub wrong_primitive: Option<u64>,
-    /// Hits with a t that the rounding of a careful f32 test does not explain.
+    /// Number of hits with a t that the rounding of a careful f32 test does not explain.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub t_off: Option<u64>,
-    /// Hits with a finite t that the oracle has as well: those that the next figures are over.
+    /// Number of hits with a finite t that the oracle has as well; the percentiles below are over these hits.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub dt_rel_count: Option<u64>,
     /// Median of |dt|/t over common hits.
@@ -44,11 +44,11 @@ pub struct Accuracy {
     /// Largest |dt|/t.
     #[serde(default, skip_serializing_if = "absent")]
     pub dt_rel_max: Option<f64>,
-    /// Answers that are not finite numbers.
+    /// Number of answers that are not finite numbers.
     pub non_finite: u64,
     /// Rates with their intervals by name: `missed`, `false_hits`, `wrong_primitive`, `t_off`,
-    /// `ambiguous_lost`, `ambiguous_wrong`, `non_finite`; `errors` where a law bounds their share. One that
-    /// could not have happened is absent.
+    /// `ambiguous_lost`, `ambiguous_wrong`, `non_finite`; and `errors` where a law bounds the share of
+    /// errors. A rate whose event could not have happened is absent.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub rates: BTreeMap<String, RateRecord>,
 }
@@ -86,21 +86,22 @@ impl From<&HitConfusion> for Accuracy {
     }
 }
 
-/// A rate and how sure it is.
+/// Rate of an event, and the confidence in it.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RateRecord {
-    /// Times that the event happened.
+    /// Number of times that the event happened.
     pub count: u64,
-    /// Trials, at least 1.
+    /// Number of trials, at least 1.
     pub of: u64,
-    /// `count / of`.
+    /// Rate `count / of`.
     pub rate: f64,
-    /// Method of the intervals.
+    /// Method by which the intervals were computed.
     pub bound: Bound,
     /// Interval of the true rate with 95 % confidence.
     pub interval: [f64; 2],
-    /// Interval such that those of all rates of the report hold together, see [`crate::Statistics`].
+    /// Interval that is wide enough for the intervals of all rates of the report to hold together, see
+    /// [`crate::Statistics`].
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub family_interval: Option<[f64; 2]>,
 }
@@ -109,14 +110,14 @@ pub struct RateRecord {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Bound {
-    /// Clopper and Pearson's, two-sided.
+    /// Two-sided interval of Clopper and Pearson.
     ClopperPearson,
-    /// It never or always happened, so that only one side can err: 3 / of at 95 %.
+    /// One-sided interval 3 / of at 95 %, for an event that never or always happened.
     OneSided,
 }
 
 impl RateRecord {
-    /// Absent if nothing was tried.
+    /// Makes the record of a rate; `None` if nothing was tried.
     pub fn of(rate: Rate) -> Option<Self> {
         let bound = if rate.is_one_sided() { Bound::OneSided } else { Bound::ClopperPearson };
         Some(Self {
@@ -129,14 +130,14 @@ impl RateRecord {
         })
     }
 
-    /// Counts as the metrics know them.
+    /// Returns the counts in the type of the metrics.
     pub fn counted(&self) -> Rate {
         Rate { count: self.count, total: self.of }
     }
 }
 
-/// Image against the reference. Figures in linear light are over the pixels that are finite; displayed
-/// values are linear ones at exposure 1, clamped to [0, 1], with the sRGB curve.
+/// Errors of an image against the reference. Figures in linear light are over the pixels that are finite.
+/// Displayed values are linear values at exposure 1, clamped to [0, 1], with the sRGB curve.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ImageError {
@@ -155,10 +156,10 @@ pub struct ImageError {
     /// Root of the mean of (R - r)^2 over pixels and channels, linear.
     #[serde(default, skip_serializing_if = "absent")]
     pub rmse: Option<f64>,
-    /// Mean of (R - r)^2 / (r^2 + 0.01), linear.
+    /// Relative mean squared error, the mean of (R - r)^2 / (r^2 + 0.01), linear.
     #[serde(default, skip_serializing_if = "absent")]
     pub relmse: Option<f64>,
-    /// `relmse` without the greatest 0.1 % of its terms.
+    /// Relative mean squared error without the greatest 0.1 % of the terms of `relmse`.
     #[serde(default, skip_serializing_if = "absent")]
     pub relmse_trimmed: Option<f64>,
     /// Mean of R - r, linear.
@@ -167,13 +168,15 @@ pub struct ImageError {
     /// Standard error of `bias` if pixels err independently.
     #[serde(default, skip_serializing_if = "absent")]
     pub bias_sigma: Option<f64>,
-    /// 10 log10(1 / MSE) of displayed values, decibels; absent also where the images are equal.
+    /// Peak signal-to-noise ratio, 10 log10(1 / MSE) of displayed values, decibels; absent also where the
+    /// images are equal.
     #[serde(default, skip_serializing_if = "absent")]
     pub psnr: Option<f64>,
-    /// Mean structural similarity of displayed luma, window of 11 x 11 with sigma 1.5; 1 for equal images.
+    /// Mean structural similarity of displayed luma in windows of 11 x 11 pixels with sigma 1.5; 1 for equal
+    /// images.
     #[serde(default, skip_serializing_if = "absent")]
     pub ssim: Option<f64>,
-    /// Pixels with a channel that is NaN or infinite.
+    /// Number of pixels with a channel that is NaN or infinite.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub non_finite: Option<u64>,
 }
@@ -182,28 +185,28 @@ pub struct ImageError {
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct HardRecord {
-    /// The case.
+    /// Identifier of the case.
     pub id: String,
-    /// One line that describes it.
+    /// Description of the case, one line.
     pub title: String,
-    /// The quantity that is measured.
+    /// Quantity that is measured.
     pub measure: String,
     /// Demand on structures of this kind.
     pub target: String,
-    /// Triangles of the case; those that loaders drop included.
+    /// Number of triangles of the case, including those that loaders drop.
     pub triangles: u64,
     /// True if the target was met; absent where one run cannot tell.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub met: Option<bool>,
-    /// Why.
+    /// Reason for the verdict.
     pub reason: String,
-    /// Rays whose answer neither oracle nor statement allows.
+    /// Number of rays whose answer neither the oracle nor the statement of the case allows.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rejected: Option<u64>,
-    /// The first of them, for `--replay`.
+    /// Number of the first rejected ray, for `--replay`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub first_rejected: Option<u64>,
-    /// Rays that a watertight test cannot miss and that got no hit.
+    /// Number of rays without a hit that a watertight test cannot miss.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub lost: Option<u64>,
 }

@@ -1,5 +1,5 @@
-//! A campaign: cells of many comparisons, in experiments that show them together. Each is flat: settings by
-//! name, and results by name.
+//! Campaign: cells of many comparisons, grouped in experiments that show them together. A cell is flat:
+//! settings by name, and results by name.
 
 use crate::{Cell, Device, ExperimentRecord, Report, Run};
 use serde_json::Value;
@@ -8,44 +8,45 @@ use std::collections::{BTreeMap, BTreeSet};
 /// Results of a campaign.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Campaign {
-    /// One line.
+    /// Title of the plan, one line.
     pub title: String,
-    /// Version of the program, and the commit where known.
+    /// Version of the program, and its commit where known.
     pub program: String,
-    /// Device that it ran on.
+    /// Device that the campaign ran on.
     pub device: Device,
-    /// In the order of the plan.
+    /// Experiments in the order of the plan.
     pub experiments: Vec<Experiment>,
 }
 
-/// Rows that are shown together.
+/// Experiment: rows that are shown together.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Experiment {
-    /// One line.
+    /// Name of the experiment, one line.
     pub name: String,
-    /// In the order of the comparisons.
+    /// Rows in the order of the comparisons.
     pub rows: Vec<Row>,
 }
 
-/// A cell and what came of it.
+/// Cell of a campaign with its results.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Row {
     /// Key of the run.
     pub key: String,
-    /// By name, such as `scene`, `system`, `samples` or `ray-set`; what a cell does not have is absent.
+    /// Settings by name, such as `scene`, `system`, `samples` or `ray-set`; a setting that the cell does not
+    /// have is absent.
     pub settings: BTreeMap<String, String>,
-    /// Numbers by name, such as `trace_ms`, `stages.film` or `counters.fragments`.
+    /// Results by name, such as `trace_ms`, `stages.film` or `counters.fragments`.
     pub results: BTreeMap<String, f64>,
-    /// The line of the cell.
+    /// Report of the cell, as its line of JSON holds it.
     pub report: Report,
 }
 
-/// Settings of every cell, in the order in which they are shown; options of systems and integrators come
-/// behind `preset`.
+/// Settings that every cell may have, in the order in which they are shown first; options of systems and
+/// integrators follow `preset`.
 const BEFORE: [&str; 9] =
     ["scene", "time", "clip", "camera", "size", "back-faces", "system", "preset", "integrator"];
 
-/// Those that come last.
+/// Settings that are shown last.
 const AFTER: [&str; 11] = [
     "ray-set",
     "rays",
@@ -60,10 +61,10 @@ const AFTER: [&str; 11] = [
     "repetitions",
 ];
 
-/// Settings of a plan that are evident from its cells.
+/// Settings of a plan that are evident from its cells and are not shown.
 const SEEN: [&str; 2] = ["image", "statistics"];
 
-/// Fields of a run that say how it was made, not what came of it.
+/// Fields of a run that describe how the run was made, and are no results.
 const NO_RESULTS: [&str; 9] = [
     "options",
     "paths",
@@ -77,7 +78,8 @@ const NO_RESULTS: [&str; 9] = [
 ];
 
 impl Campaign {
-    /// The campaign that these lines are of, in the order of their places; `None` where the first is of none.
+    /// Collects the campaign of these lines, in the order of their places; `None` if the first line belongs
+    /// to no campaign.
     pub fn of<'a>(lines: impl IntoIterator<Item = &'a Report>) -> Option<Self> {
         let mut lines: Vec<_> = lines.into_iter().collect();
         lines.sort_by_key(|line| line.cell.as_ref().map(|cell| cell.place));
@@ -98,13 +100,13 @@ impl Campaign {
 }
 
 impl Experiment {
-    /// Names of all settings of its rows, in the order in which they are shown.
+    /// Returns the names of all settings of the rows, in the order in which they are shown.
     pub fn settings(&self) -> Vec<&str> {
         in_order(self.rows.iter().flat_map(|row| row.settings.keys().map(String::as_str)))
     }
 
-    /// Its sets of rays and its images apart, those that it has: each of them has settings and results that
-    /// the other has not.
+    /// Splits the experiment into its sets of rays and its images, and returns the parts that have rows. Each
+    /// of the two has settings and results that the other does not have.
     pub fn parts(&self) -> Vec<Self> {
         let part = |rays: bool| {
             let rows = self.rows.iter().filter(|row| row.run().ray_set.is_some() == rays);
@@ -113,7 +115,8 @@ impl Experiment {
         [part(true), part(false)].into_iter().filter(|part| !part.rows.is_empty()).collect()
     }
 
-    /// Names of the settings that its rows differ in. A row without a setting differs from one that has it.
+    /// Returns the names of the settings in which rows differ. A row without a setting differs from a row
+    /// that has it.
     pub fn varied(&self) -> Vec<&str> {
         let values = |name: &str| {
             self.rows.iter().map(|row| row.settings.get(name).map(String::as_str)).collect::<BTreeSet<_>>()
@@ -122,7 +125,8 @@ impl Experiment {
     }
 }
 
-/// Each name once: those of every cell around those of options, which are in the order of the alphabet.
+/// Returns each name once, in the order in which settings are shown: options, in alphabetical order, stand
+/// between the settings that every cell may have.
 pub fn in_order<'a>(names: impl IntoIterator<Item = &'a str>) -> Vec<&'a str> {
     let names: BTreeSet<_> = names.into_iter().collect();
     let of = |order: &'static [&'static str]| order.iter().copied().filter(|name| names.contains(name));
@@ -131,7 +135,7 @@ pub fn in_order<'a>(names: impl IntoIterator<Item = &'a str>) -> Vec<&'a str> {
 }
 
 impl Row {
-    /// The row of a line in an experiment; `None` where the line is of no cell.
+    /// Makes the row of a line in an experiment; `None` if the line is not a cell.
     fn of(line: &Report, experiment: &ExperimentRecord) -> Option<Self> {
         let record = line.cell.as_ref()?;
         let mut settings = cell_settings(&record.depends_on);
@@ -144,18 +148,18 @@ impl Row {
         Some(Self { key: record.key.clone(), settings, results: results(run), report: line.clone() })
     }
 
-    /// The run.
+    /// Returns the run.
     pub fn run(&self) -> &Run {
         &self.report.runs[0]
     }
 
-    /// The setting of a name; empty where the row has none.
+    /// Returns the setting of a name; empty if the row does not have it.
     pub fn setting(&self, name: &str) -> &str {
         self.settings.get(name).map_or("", String::as_str)
     }
 }
 
-/// Settings of a cell, by the names of the command's options.
+/// Returns the settings of a cell by the names of the command's options.
 pub fn cell_settings(cell: &Cell) -> BTreeMap<String, String> {
     let mut settings = BTreeMap::new();
     let mut set = |name: &str, value: Option<String>| {
@@ -191,17 +195,17 @@ pub fn cell_settings(cell: &Cell) -> BTreeMap<String, String> {
     settings
 }
 
-/// Every number that a run gave, by its path in the report; of a list, elements are named by their `label`,
+/// Collects every number of a run by its path in the report; elements of a list are named by their `label`,
 /// `stage` or `cells_of`.
-/// `rays_traced`: those of `trace_ms`; `error_share`: hits that are missed, false or wrong, of the rays that
-/// were compared.
+/// `rays_traced` is the number of rays of `trace_ms`. `error_share` is the share of missed, false and wrong
+/// hits among the rays that were compared.
 fn results(run: &Run) -> BTreeMap<String, f64> {
     let mut numbers = BTreeMap::new();
     if let Ok(Value::Object(fields)) = serde_json::to_value(run) {
         let results = fields.into_iter().filter(|(name, _)| !NO_RESULTS.contains(&name.as_str()));
         results.for_each(|(name, value)| collect(&name, &value, &mut numbers));
     }
-    // `rays` is the setting: how many were asked for.
+    // The name `rays` is a setting already: the number of rays that were asked for.
     if let Some(traced) = numbers.remove("rays") {
         numbers.insert("rays_traced".to_owned(), traced);
     }
@@ -223,7 +227,7 @@ fn collect(path: &str, value: &Value, numbers: &mut BTreeMap<String, f64>) {
         }
         Value::Array(elements) => {
             for element in elements {
-                // A pass has a stage too; its label tells it from others.
+                // A pass has a stage too, but only its label tells it from other passes.
                 let name = ["label", "stage", "cells_of"].iter().find_map(|name| element.get(name)?.as_str());
                 name.into_iter().for_each(|name| collect(&format!("{path}.{name}"), element, numbers));
             }
@@ -305,7 +309,7 @@ pub(crate) mod tests {
         let parts = first.parts();
         let shape: Vec<_> = parts.iter().map(|part| (part.rows.len(), part.varied())).collect();
         assert_eq!(shape, [(2, vec!["system", "samples"]), (1, vec![])]);
-        // A setting that the plan has and the cell has not.
+        // A setting that the plan has and the cell does not have.
         assert_eq!(campaign.experiments[1].rows[0].setting("environment"), "sky1.hdr");
         assert_eq!(Campaign::of(&[Report { cell: None, ..lines[0].clone() }]), None);
     }

@@ -1,16 +1,16 @@
-//! A campaign as Markdown, and the columns of its tables.
+//! Text of a campaign as Markdown, and the columns of its tables.
 
 use crate::campaign::{Campaign, Experiment, Row};
 use crate::{bytes, grouped, in_line};
 
-/// A result that tables of campaigns show.
+/// Column of the tables of campaigns: a result and the form in which it is shown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Column {
-    /// Its name in [`Row::results`].
+    /// Name of the result in [`Row::results`].
     pub name: &'static str,
-    /// Heads the column.
+    /// Heading of the column.
     pub head: &'static str,
-    /// Meaning, one line.
+    /// Meaning of the result, one line.
     pub meaning: &'static str,
     form: Form,
 }
@@ -18,14 +18,14 @@ pub struct Column {
 /// Form in which a number is written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Form {
-    /// Three digits that count.
+    /// Number with three significant digits.
     Number,
-    /// A whole number.
+    /// Whole number.
     Count,
     Bytes,
-    /// As a power of ten.
+    /// Power of ten.
     Tiny,
-    /// A share as per cent.
+    /// Share in per cent.
     Percent,
 }
 
@@ -33,7 +33,7 @@ const fn column(name: &'static str, head: &'static str, form: Form, meaning: &'s
     Column { name, head, meaning, form }
 }
 
-/// The columns, in their order; one that no row of an experiment has is left out.
+/// All columns in their order. A column without a value in any row of an experiment is left out.
 pub const COLUMNS: [Column; 23] = [
     column("build_ms", "build ms", Form::Number, "Posed positions to traceable, median"),
     column("trace_ms", "trace ms", Form::Number, "Rays in to hits out, median"),
@@ -71,7 +71,7 @@ pub const COLUMNS: [Column; 23] = [
 ];
 
 impl Column {
-    /// The number of a row in words; empty where it has none.
+    /// Returns the number of a row as text; empty if the row has none.
     pub fn of(&self, row: &Row) -> String {
         let Some(value) = row.results.get(self.name).copied() else { return String::new() };
         match self.form {
@@ -85,7 +85,7 @@ impl Column {
     }
 }
 
-/// Three digits that count, without an exponent where it can be.
+/// Writes a number with three significant digits, without an exponent where possible.
 pub fn number(value: f64) -> String {
     match value.abs() {
         0.0 => "0".to_owned(),
@@ -100,13 +100,13 @@ pub fn number(value: f64) -> String {
 }
 
 impl Experiment {
-    /// The columns that a row of it has.
+    /// Returns the columns for which at least one row has a value.
     pub fn columns(&self) -> Vec<Column> {
         let has = |column: &Column| self.rows.iter().any(|row| row.results.contains_key(column.name));
         COLUMNS.into_iter().filter(has).collect()
     }
 
-    /// Settings that all rows share, in words; empty without rows.
+    /// Returns the settings that all rows share as text; empty without rows.
     pub fn common(&self) -> String {
         let Some(first) = self.rows.first() else { return String::new() };
         let varied = self.varied();
@@ -115,8 +115,8 @@ impl Experiment {
     }
 }
 
-/// The campaign as Markdown: of each experiment what its rows have in common, and a table of the settings
-/// that they differ in and of what they gave.
+/// Writes the campaign as Markdown: for each experiment the settings that its rows have in common, and a
+/// table of the settings in which they differ and of their results.
 pub fn campaign_markdown(campaign: &Campaign) -> String {
     let device = &campaign.device;
     let software = if device.software { ", a software driver: times are for ratios" } else { "" };
@@ -132,7 +132,8 @@ pub fn campaign_markdown(campaign: &Campaign) -> String {
     text
 }
 
-/// The sets of rays of an experiment, and its images: for each what the rows have in common, and their table.
+/// Writes the sets of rays of an experiment, then its images: for each the settings that the rows have in
+/// common, and their table.
 fn experiment_markdown(experiment: &Experiment) -> String {
     experiment.parts().iter().map(part_markdown).collect::<Vec<_>>().join("\n")
 }
@@ -142,8 +143,8 @@ fn part_markdown(experiment: &Experiment) -> String {
     format!("{}\n\n{rows}", in_line(&experiment.common()))
 }
 
-/// A row per run: these settings, and of its results these columns. A unit that all numbers of a column have
-/// stands in its head.
+/// Writes one table row per run with these settings and these columns of results. A unit that all numbers of
+/// a column have is written in the heading.
 pub fn rows_markdown(experiment: &Experiment, settings: &[&str], columns: &[Column]) -> String {
     let mut heads: Vec<_> = settings.iter().map(|&name| name.to_owned()).collect();
     let rules = settings.iter().map(|_| "---").chain(columns.iter().map(|_| "---:"));
@@ -163,7 +164,7 @@ pub fn rows_markdown(experiment: &Experiment, settings: &[&str], columns: &[Colu
     line(heads) + &line(rules.map(str::to_owned)) + &rows.into_iter().map(line).collect::<String>()
 }
 
-/// The word behind every number of a column that has one.
+/// Returns the unit that follows every number of a column; `None` if the numbers differ in it.
 fn common_unit(cells: &[String]) -> Option<&str> {
     let mut units = cells.iter().filter(|cell| !cell.is_empty()).map(|cell| cell.split_once(' '));
     let (_, first) = units.next()??;

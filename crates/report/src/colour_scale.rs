@@ -1,10 +1,10 @@
-//! Colours for numbers: maps of pages and of the viewer.
+//! Scales of colours for numbers, in the maps of pages and of the viewer.
 
-/// A scale of colours from dark to light, even to the eye and readable without colour: stops at equal
+/// Scale of colours from dark to light, perceptually uniform and readable without colour: stops at equal
 /// distances, linear in sRGB between them.
 pub type Scale = [[u8; 3]];
 
-/// Dark blue over green to yellow: stops of viridis, for counts.
+/// Scale from dark blue over green to yellow: stops of viridis, for counts.
 pub const VIRIDIS: &Scale = &[
     [0x44, 0x01, 0x54],
     [0x48, 0x28, 0x78],
@@ -18,7 +18,7 @@ pub const VIRIDIS: &Scale = &[
     [0xfd, 0xe7, 0x25],
 ];
 
-/// Black over purple to pale yellow: stops of magma, as is usual for FLIP.
+/// Scale from black over purple to pale yellow: stops of magma, as is usual for FLIP.
 pub const MAGMA: &Scale = &[
     [0x00, 0x00, 0x04],
     [0x18, 0x0f, 0x3d],
@@ -32,7 +32,7 @@ pub const MAGMA: &Scale = &[
     [0xfc, 0xfd, 0xbf],
 ];
 
-/// The colour of `value` in [0, 1]; values outside take the nearest end, not-a-number the dark one.
+/// Returns the colour of `value` in [0, 1]; values outside take the nearest end, not-a-number the dark end.
 pub fn colour(scale: &Scale, value: f64) -> [u8; 3] {
     let last = scale.len() - 1;
     let place = if value.is_nan() { 0.0 } else { value.clamp(0.0, 1.0) * last as f64 };
@@ -44,7 +44,7 @@ pub fn colour(scale: &Scale, value: f64) -> [u8; 3] {
     })
 }
 
-/// Place of `count` on a scale that ends at `most`: logarithmic, and 0 at 0.
+/// Returns the place of `count`, in [0, 1], on a scale that ends at `most`: logarithmic, and 0 at 0.
 pub fn place(count: u32, most: u32) -> f64 {
     if most == 0 { 0.0 } else { f64::from(count).ln_1p() / f64::from(most).ln_1p() }
 }

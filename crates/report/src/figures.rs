@@ -3,16 +3,16 @@
 /// Pictures and maps of a comparison; `run` is always a position in [`crate::Report::runs`].
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Figures {
-    /// The reference and the systems' images; absent unless images were compared.
+    /// Images of the reference and of the systems; absent unless images were compared.
     pub images: Option<Images>,
-    /// Work per pixel of the camera's rays, one map a run.
+    /// Work per pixel of the camera's rays, one map per run.
     pub work: Vec<WorkMap>,
-    /// Errors in t of a run's hits, one histogram a run.
+    /// Errors in t of a run's hits, one histogram per run.
     pub depth_errors: Vec<DepthErrors>,
 }
 
 impl Figures {
-    /// Moves runs to other positions, which `place` gives.
+    /// Moves runs to the positions that `place` returns.
     #[must_use]
     pub fn moved(mut self, place: impl Fn(usize) -> usize) -> Self {
         let images =
@@ -24,65 +24,65 @@ impl Figures {
     }
 }
 
-/// Images of one size; linear Rec. 709, W/(sr m^2), rows from the top.
+/// Images of one size in linear Rec. 709, W/(sr m^2), rows from the top.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Images {
-    /// Pixels a row.
+    /// Width of the images, pixels.
     pub width: u32,
-    /// Rows.
+    /// Height of the images, pixels.
     pub height: u32,
-    /// The reference, `width * height` pixels.
+    /// Pixels of the reference, `width * height` of them.
     pub reference: Vec<[f32; 3]>,
-    /// One per run with an image.
+    /// Images of the systems, one per run with an image.
     pub systems: Vec<SystemImage>,
 }
 
-/// The image of one run.
+/// Image of one run.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SystemImage {
-    /// The run.
+    /// Position of the run.
     pub run: usize,
-    /// `width * height` pixels.
+    /// Pixels of the image, `width * height` of them.
     pub pixels: Vec<[f32; 3]>,
     /// FLIP of each pixel against the reference, in [0, 1].
     pub flip: Vec<f32>,
 }
 
-/// Work of the ray through each pixel's centre, rows from the top.
+/// Map of the work of the ray through each pixel's centre, rows from the top.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct WorkMap {
-    /// The run.
+    /// Position of the run.
     pub run: usize,
-    /// Pixels a row.
+    /// Width of the map, pixels.
     pub width: u32,
-    /// Rows.
+    /// Height of the map, pixels.
     pub height: u32,
-    /// Cells stepped.
+    /// Number of cells stepped, per pixel.
     pub cells: Vec<u32>,
-    /// List entries or tree nodes read.
+    /// Number of list entries or tree nodes read, per pixel.
     pub entries: Vec<u32>,
-    /// Primitive tests.
+    /// Number of primitive tests, per pixel.
     pub tests: Vec<u32>,
 }
 
 /// Distribution of |dt|/t over hits that the system and the oracle share.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct DepthErrors {
-    /// The run.
+    /// Position of the run.
     pub run: usize,
-    /// Hits with exactly the oracle's t, rounded to f32.
+    /// Number of hits with exactly the oracle's t, rounded to f32.
     pub zero: u64,
-    /// Hits per bin; bin i holds [10^(low + i w), 10^(low + (i + 1) w)), `low` and w of
-    /// [`DepthErrors::LOW`] and [`DepthErrors::WIDTH`]; the first and last bins are open.
+    /// Number of hits in each bin. Bin i holds [10^(low + i w), 10^(low + (i + 1) w)), where `low` is
+    /// [`DepthErrors::LOW`] and w is [`DepthErrors::WIDTH`]; the first and last bins are open.
     pub bins: Vec<u64>,
 }
 
 impl DepthErrors {
     /// Decimal exponent at the start of the first bin.
     pub const LOW: f64 = -9.0;
-    /// Decades a bin.
+    /// Width of a bin, decades.
     pub const WIDTH: f64 = 0.25;
-    /// Bins: up to 10^1.
+    /// Number of bins, which end at 10^1.
     pub const BINS: usize = 40;
 }
 

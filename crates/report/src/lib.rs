@@ -53,15 +53,15 @@ const FAMILY_CONFIDENCE: f64 = 0.95;
 pub struct Origin {
     /// Version of the program.
     pub version: String,
-    /// Commit that it was built from, where known.
+    /// Commit that the program was built from, where known.
     pub commit: Option<String>,
     /// The command line as it was typed.
     pub command: Option<String>,
 }
 
 impl Report {
-    /// A report of `runs` on a device and a scene. Gives each rate the interval that it has as one of all the
-    /// report's rates.
+    /// Makes a report of `runs` on a device and a scene. Each rate gets its family interval, which takes the
+    /// number of all rates of the report into account.
     pub fn new(origin: Origin, device: Device, scene: SceneRecord, mut runs: Vec<Run>) -> Self {
         let statistics = widen_intervals(&mut runs);
         Self {
@@ -78,15 +78,15 @@ impl Report {
         }
     }
 
-    /// Adds the camera that it was seen from.
+    /// Adds the camera from which the scene was seen.
     #[must_use]
     pub fn seen_from(mut self, camera: CameraRecord) -> Self {
         self.camera = Some(camera);
         self
     }
 
-    /// The report as JSON text with a line break at its end. A number that is not finite is left out
-    /// like one that was not measured: JSON has no word for it.
+    /// Writes the report as JSON text with a line break at its end. A number that is not finite is left out,
+    /// like a number that was not measured, because JSON cannot represent it.
     pub fn to_json(&self) -> String {
         let mut text =
             serde_json::to_string_pretty(self).expect("strings, numbers and maps with string keys");
@@ -94,13 +94,13 @@ impl Report {
         text
     }
 
-    /// The report as JSON in one line, without a line break at its end.
+    /// Writes the report as JSON in one line, without a line break at its end.
     pub fn to_json_line(&self) -> String {
         serde_json::to_string(self).expect("strings, numbers and maps with string keys")
     }
 }
 
-/// Options as a report has them: numbers stay numbers.
+/// Converts options to the form of a report, in which numbers stay numbers.
 pub fn options<'a>(resolved: impl IntoIterator<Item = (&'a str, String)>) -> BTreeMap<String, Value> {
     let value = |text: String| match (text.parse::<u64>(), text.parse::<f64>()) {
         (Ok(whole), _) => Value::from(whole),
@@ -110,7 +110,8 @@ pub fn options<'a>(resolved: impl IntoIterator<Item = (&'a str, String)>) -> BTr
     resolved.into_iter().map(|(name, text)| (name.to_owned(), value(text))).collect()
 }
 
-/// Gives every rate its family interval; absent if there are no rates.
+/// Gives every rate its family interval, and returns the confidence of all rates; `None` if there are no
+/// rates.
 fn widen_intervals(runs: &mut [Run]) -> Option<Statistics> {
     let accuracies = || runs.iter().filter_map(|run| run.accuracy.as_ref());
     let rates = accuracies().map(|accuracy| accuracy.rates.len() as u64).sum();
@@ -128,7 +129,7 @@ fn widen_intervals(runs: &mut [Run]) -> Option<Statistics> {
     })
 }
 
-/// Compiles the examples of the readme.
+/// Compiles the examples of the readme as documentation tests.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 struct Readme;

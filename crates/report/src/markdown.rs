@@ -1,14 +1,14 @@
-//! The runs of a report side by side as one Markdown table, for pages that publish them.
+//! Markdown table of the runs of a report side by side, for pages that publish them.
 
 use crate::{Accuracy, Report, Run, grouped, in_line};
 
-/// The system whose rate others are put in relation to, where a report has it.
+/// System and preset of the baseline, to whose rate the rates of other runs are related.
 const BASELINE: (&str, &str) = ("bvh", "robust");
 
-/// That of several of them which it is.
+/// Variant that is the baseline where the report has several of this system and preset.
 const BASELINE_VARIANT: &str = "builder=sah";
 
-/// Heads of the columns; those after the second are aligned to the right.
+/// Headings of the columns; columns after the second are aligned to the right.
 const HEADS: [&str; 15] = [
     "structure",
     "rays",
@@ -27,9 +27,9 @@ const HEADS: [&str; 15] = [
     "wrong",
 ];
 
-/// The table, one row per run, with |dt|/t percentiles behind the counts of wrong answers. What was not
-/// measured is an empty cell. Counts are over the unambiguous rays, whose number heads the table with the
-/// scene and the device.
+/// Writes the table, one row per run, with the percentiles of |dt|/t behind the counts of wrong answers. A
+/// measurement that was not made is an empty cell. Counts are over the unambiguous rays, whose number stands
+/// above the table with the scene and the device.
 pub fn markdown(report: &Report) -> String {
     let heads: Vec<&str> = HEADS.into_iter().chain(["dt/t p50", "dt/t p99"]).collect();
     let rules = (0..heads.len()).map(|column| if column < 2 { "---" } else { "---:" });
@@ -100,8 +100,9 @@ fn cells(report: &Report, run: &Run) -> Vec<String> {
     ]
 }
 
-/// Rays per second over those of the baseline on the same rays; absent where the baseline was not traced, or
-/// stands there more than once and not once with its own builder.
+/// Returns the rays per second of a run over those of the baseline on the same rays. Absent if the baseline
+/// was not traced, or if several runs are candidates and not exactly one of them has the variant of the
+/// baseline.
 fn relation(report: &Report, run: &Run) -> Option<f64> {
     let mut baselines: Vec<&Run> = report
         .runs

@@ -1,14 +1,14 @@
-//! A run with every number, as text for people.
+//! Text of a run with every number, for people.
 
 use crate::{Bound, HardRecord, ListRecord, RateRecord, Run, StageTime, bytes, columns, grouped};
 use std::fmt::Write;
 
-/// A sum of none is -0 in Rust, and is 0 here.
+/// Writes a time in milliseconds. A sum of no terms is -0 in Rust, and is written as 0 here.
 fn milliseconds(value: f64) -> String {
     format!("{:.3} ms", value + 0.0)
 }
 
-/// Least and greatest of repeated times, with the quartiles between them.
+/// Writes the least and greatest of repeated times, with the quartiles between them.
 fn apart(least: f64, quartiles: Option<(f64, f64)>, greatest: f64) -> String {
     match quartiles {
         Some((first, third)) => format!("({least:.3} [{first:.3} to {third:.3}] {greatest:.3})"),
@@ -27,7 +27,7 @@ fn row(name: &str, value: Option<String>) -> Option<Vec<String>> {
     value.map(|value| vec![name.to_owned(), value])
 }
 
-/// Confidence interval of the true rate, in per cent.
+/// Writes the confidence interval of the true rate in per cent.
 fn interval(rate: &RateRecord) -> String {
     let [low, high] = rate.interval.map(|end| 100.0 * end);
     match (rate.bound, rate.count) {
@@ -37,7 +37,7 @@ fn interval(rate: &RateRecord) -> String {
     }
 }
 
-/// Counts of lists as rows of a table, under their heads; no row where there are none.
+/// Returns the counts of lists as rows of a table below their headings; no row if there are none.
 pub fn list_rows(lists: &[ListRecord]) -> Vec<Vec<String>> {
     let head =
         ["cells of", "cells", "occupied", "layers", "on average", "at most", "entries", "slots", "unfilled"];
@@ -58,12 +58,12 @@ pub fn list_rows(lists: &[ListRecord]) -> Vec<Vec<String>> {
     heads.into_iter().chain(rows).collect()
 }
 
-/// Verdict on a target, in words.
+/// Returns the verdict on a target in words.
 pub(super) fn verdict(hard: &HardRecord) -> &'static str {
     hard.met.map_or("one run cannot tell", |met| if met { "met" } else { "NOT MET" })
 }
 
-/// Description of a run.
+/// Writes the description of a run.
 pub(super) fn heading(run: &Run) -> String {
     let mut text = run.contestant();
     for part in [&run.ray_set, &run.integrator].into_iter().flatten() {
@@ -84,7 +84,7 @@ pub(super) fn heading(run: &Run) -> String {
     text
 }
 
-/// Every number of a run.
+/// Writes every number of a run.
 pub(super) fn run_text(run: &Run) -> String {
     let mut text = heading(run);
     text.push('\n');

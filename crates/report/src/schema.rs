@@ -1,4 +1,4 @@
-//! A report and its runs. A measurement that was not made is an absent field, never 0.
+//! Schema of a report and its runs. A measurement that was not made is an absent field, never 0.
 
 use crate::accuracy::{Accuracy, HardRecord, ImageError};
 use crate::cell::CellRecord;
@@ -7,42 +7,42 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use std::collections::BTreeMap;
 
-/// Name of the schema, in every report.
+/// Name of the schema, which every report holds.
 pub const SCHEMA: &str = "rasray-report/1";
 
-/// A whole report.
+/// Report of measurements.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Report {
-    /// [`SCHEMA`].
+    /// Name of the schema, [`SCHEMA`].
     pub schema: String,
     /// Version of the program.
     pub version: String,
     /// Commit that the program was built from.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub commit: Option<String>,
-    /// The command line as it was typed, words joined by spaces.
+    /// Command line as it was typed, words joined by spaces.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub command: Option<String>,
-    /// Device that it ran on.
+    /// Device that the runs ran on.
     pub device: Device,
-    /// The scene that it ran on.
+    /// Scene that the runs ran on.
     pub scene: SceneRecord,
-    /// From where it was seen; absent for hard cases, which have an eye of their own.
+    /// Camera from which the scene was seen; absent for hard cases, which have an eye of their own.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub camera: Option<CameraRecord>,
-    /// The run of a comparison that this line is of, where each run has a line of its own; absent otherwise.
+    /// Cell of a comparison that this line holds, where each run has a line of its own; absent otherwise.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub cell: Option<CellRecord>,
     /// Confidence of the intervals of all rates together; absent where no rate was estimated.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub statistics: Option<Statistics>,
-    /// One entry per system, preset and ray set or image.
+    /// Runs, one per system, preset and ray set or image.
     pub runs: Vec<Run>,
 }
 
 impl Report {
-    /// The version of the program, and the commit where it is known.
+    /// Returns the version of the program, and its commit where known.
     pub fn program(&self) -> String {
         match &self.commit {
             Some(commit) => format!("{} ({commit})", self.version),
@@ -51,11 +51,11 @@ impl Report {
     }
 }
 
-/// Number of rates of a report, and the confidence in all of them.
+/// Number of rates in a report, and the confidence in all of them.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Statistics {
-    /// Rates with an interval in this report.
+    /// Number of rates with an interval in this report.
     pub rates: u64,
     /// Confidence of every `interval` by itself.
     pub confidence: f64,
@@ -65,205 +65,207 @@ pub struct Statistics {
     pub confidence_of_each: f64,
 }
 
-/// A device.
+/// Device that runs ran on.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Device {
-    /// Name that the driver gives.
+    /// Name of the device, as the driver gives it.
     pub name: String,
-    /// Driver and its version.
+    /// Name and version of the driver.
     pub driver: String,
-    /// True if it is a program on the processor: its times are for ratios on that device.
+    /// True if the device is a program on the processor, whose times are only for ratios on that device.
     pub software: bool,
 }
 
-/// A scene.
+/// Scene of a report.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SceneRecord {
-    /// File stem, or built-in name with its parameters.
+    /// Name of the scene: the stem of its file, or the built-in name with its parameters.
     pub name: String,
-    /// Triangles over all instances.
+    /// Number of triangles over all instances.
     pub triangles: u64,
     /// SHA-256 of the scene file, in hexadecimal; absent for built-in scenes.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub sha256: Option<String>,
-    /// Bytes of its tables that were not allocated on the device, because no image of the integrator can show
-    /// what they hold; absent for hard cases.
+    /// Bytes of the scene's tables that were not allocated on the device, because no image of the integrator
+    /// can show the data in them; absent for hard cases.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub not_uploaded_bytes: Option<u64>,
-    /// When it was shown; absent at rest.
+    /// Time at which the scene was shown; absent at rest.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub pose: Option<PoseRecord>,
-    /// The light from outside: `scene` for the scene's own, `given` for one that was asked for, `default` for
-    /// the light of a scene that nothing lights; absent for hard cases.
+    /// Light from outside: `scene` for the scene's own, `given` for an environment that was asked for,
+    /// `default` for the light of a scene without lights; absent for hard cases.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub environment: Option<String>,
-    /// `off` where every surface was made opaque; absent otherwise.
+    /// Treatment of transparency: `off` where every surface was made opaque; absent otherwise.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub alpha: Option<String>,
-    /// Images that were made smaller, because the device does not hold the texels of all; absent where there
-    /// are none.
+    /// Images that were made smaller, because the device cannot hold the texels of all images; absent where
+    /// there are none.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub smaller_images: Vec<SmallerImageRecord>,
 }
 
-/// A time of an animation.
+/// Time of an animation.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PoseRecord {
-    /// Seconds from the beginning of the clips.
+    /// Time in seconds from the beginning of the clips.
     pub time_s: f64,
     /// Names of the clips that were played.
     pub clips: Vec<String>,
-    /// Number of the frame of an animation; absent where one time was asked for.
+    /// Number of the animation's frame; absent where one time was asked for.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub frame: Option<u32>,
-    /// The frames that the command makes, of which this is one; absent where one time was asked for.
+    /// All frames that the command makes, of which this is one; absent where one time was asked for.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub frames: Option<FramesRecord>,
-    /// For a sequence of files, the name of the one that was shown; absent otherwise.
+    /// Name of the file that was shown, for a sequence of files; absent otherwise.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub file: Option<String>,
 }
 
-/// Frames of one animation, by which reports of its shares are known to go together.
+/// Frames of one animation, by which reports of its shares are recognised as parts of one sequence.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct FramesRecord {
     /// Number of the first frame.
     pub first: u32,
-    /// Number of the last frame, not below the first.
+    /// Number of the last frame, not less than the first.
     pub last: u32,
-    /// Share of them that the command makes, such as `2/8`; absent where it makes all.
+    /// Share of the frames that the command makes, such as `2/8`; absent where it makes all.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub shard: Option<String>,
     /// Key of the sequence, equal for all shares, 64 hexadecimal digits: a hash of the first frame's key and
-    /// of frames per second.
+    /// of the frames per second.
     pub key: String,
 }
 
-/// An image that was made smaller.
+/// Image that was made smaller.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SmallerImageRecord {
-    /// Name or file.
+    /// Name or file of the image.
     pub name: String,
-    /// Texels per row and rows in the scene.
+    /// Width and height in the scene, texels.
     pub from: [u32; 2],
-    /// Texels per row and rows as it was used.
+    /// Width and height as used, texels.
     pub to: [u32; 2],
 }
 
-/// From where a scene was seen.
+/// Camera from which a scene was seen.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct CameraRecord {
-    /// As the scene has it; `default` or `command line` for a camera that is not the scene's.
+    /// Name of the camera in the scene; `default` or `command line` for a camera that is not the scene's.
     pub name: String,
-    /// Position among the scene's cameras, from 0; absent for a camera that is not the scene's.
+    /// Index among the scene's cameras, from 0; absent for a camera that is not the scene's.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub index: Option<u64>,
-    /// `perspective` or `orthographic`.
+    /// Kind of projection: `perspective` or `orthographic`.
     pub kind: String,
-    /// Full vertical angle of view, degrees; of a perspective.
+    /// Full vertical angle of view, degrees; only of a perspective.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub fov_y_degrees: Option<f64>,
-    /// Metres of the world from the lower to the upper edge; of a parallel projection.
+    /// Height of the view in the world, from the lower to the upper edge, metres; only of a parallel
+    /// projection.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub height_m: Option<f64>,
-    /// Width over height of what the camera frames, where it says so; an image that is narrower for its
-    /// height shows more above and below than its angle or height says.
+    /// Ratio of width to height that the camera frames, where the camera states one. An image that is
+    /// narrower for its height shows more above and below than the camera's angle or height states.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub aspect_ratio: Option<f64>,
-    /// Metres, the diameter of the lens's opening; absent: a pinhole.
+    /// Diameter of the lens's opening, metres; absent for a pinhole.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub aperture_m: Option<f64>,
-    /// Metres along the view to the plane in focus; of a lens.
+    /// Distance along the view to the plane in focus, metres; only of a lens.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub focus_m: Option<f64>,
-    /// Metres, world.
+    /// Position of the eye in the world, metres.
     pub eye: [f64; 3],
-    /// Unit direction in which it looks, world.
+    /// Unit direction in which the camera looks, world.
     pub forward: [f64; 3],
-    /// Unit direction that is up in the picture, world.
+    /// Unit direction that points up in the picture, world.
     pub up: [f64; 3],
 }
 
-/// Samples by noise.
+/// Adaptive sampling: samples shared by noise.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct AdaptiveRecord {
     /// Standard error that a pixel may have, as a share of its luminance.
     pub threshold: f64,
-    /// Samples that every pixel got, by which the rest was shared.
+    /// Number of samples that every pixel got first; their noise decided how the rest was shared.
     pub least_samples: u32,
-    /// Mean over the pixels.
+    /// Mean number of samples over the pixels.
     pub samples_mean: f64,
-    /// Samples of the pixel that got most.
+    /// Number of samples of the pixel that got the most.
     pub samples_most: u32,
 }
 
-/// One system, preset and ray set or image.
+/// Run of one system and preset on one ray set or image.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Run {
-    /// Such as `mmrt`.
+    /// Name of the system, such as `mmrt`.
     pub system: String,
-    /// Such as `abuffer`.
+    /// Name of the structure, such as `abuffer`.
     pub structure: String,
-    /// `robust` or `published`.
+    /// Name of the preset: `robust` or `published`.
     pub preset: String,
-    /// The options in which it differs from other runs of the same system and preset, such as `leaf=2`;
-    /// absent where there is one.
+    /// Options in which the run differs from other runs of the same system and preset, such as `leaf=2`;
+    /// absent where there is only one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub variant: Option<String>,
-    /// Why the system was taken, where none was asked for.
+    /// Reason for which the program chose the system, where the user asked for none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub chosen: Option<String>,
-    /// Key of a picture, 64 hexadecimal digits: a hash of everything that decides its values; absent for ray
-    /// sets.
+    /// Key of a picture, 64 hexadecimal digits: a hash of everything that decides the picture's values;
+    /// absent for ray sets.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub key: Option<String>,
-    /// Share of the samples that was made, such as `2/8`; absent where all were.
+    /// Share of the samples that was made, such as `2/8`; absent where all samples were made.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub shard: Option<String>,
-    /// Options as resolved from preset and command line.
+    /// Options as resolved from the preset and the command line.
     pub options: BTreeMap<String, Value>,
-    /// Choices of the device: builder, coverage, atomics.
+    /// Choices that depend on the device: builder, coverage, atomics.
     pub paths: BTreeMap<String, String>,
-    /// Set of rays; absent for images.
+    /// Name of the set of rays; absent for images.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub ray_set: Option<String>,
-    /// Its name, such as `path`; absent for ray sets.
+    /// Name of the integrator, such as `path`; absent for ray sets.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub integrator: Option<String>,
-    /// Pixels a row.
+    /// Width of the image, pixels.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub width: Option<u32>,
-    /// Rows.
+    /// Height of the image, pixels.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub height: Option<u32>,
-    /// Samples per pixel that were made.
+    /// Number of samples per pixel that were made.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub spp: Option<u32>,
-    /// Sharing of samples among the pixels, where some got more than others; then `spp` is the most that one
+    /// Adaptive sampling, where some pixels got more samples than others; `spp` is then the most that a pixel
     /// could get.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub adaptive: Option<AdaptiveRecord>,
-    /// Scatterings at most; absent unless paths are traced.
+    /// Largest number of scatterings of a path; absent unless paths are traced.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub bounces: Option<u32>,
-    /// `trace`, `raster` or `fragments`: how what camera rays hit was found; absent for ray sets.
+    /// Method by which the first hits of camera rays were found: `trace`, `raster` or `fragments`; absent for
+    /// ray sets.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub primary: Option<String>,
-    /// `structure` or `shadow-maps`: what answered shadow rays; absent for ray sets.
+    /// Occluder that answered shadow rays: `structure` or `shadow-maps`; absent for ray sets.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub occluder: Option<String>,
-    /// Texels along a side of a shadow map; absent without any.
+    /// Texels along a side of a shadow map; absent without shadow maps.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub shadow_resolution: Option<u32>,
-    /// Points on each emitting triangle that have shadow maps; absent where rays to these were traced.
+    /// Points on each emitting triangle that have shadow maps; absent where rays to these points were traced.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub shadow_points: Option<u32>,
     /// Seed of all random numbers.
@@ -275,40 +277,40 @@ pub struct Run {
     /// Rays that pass the backs of single-sided surfaces, such as `camera`; absent for ray sets.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub back_faces: Option<String>,
-    /// Options of the integrator by name, also those at their default; empty for ray sets.
+    /// Options of the integrator by name, including those at their default; empty for ray sets.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub integrator_options: BTreeMap<String, Value>,
-    /// Times and rate.
+    /// Times of the run and its ray rate.
     #[serde(flatten)]
     pub times: Times,
     /// Spread of repeated times, by the name of their median: `build_ms`, `build_host_ms`, `trace_ms`.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub spread: BTreeMap<String, Spread>,
-    /// Every stage that was timed, in the order of a frame.
+    /// Times of every stage that was timed, in the order of a frame.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub stages: Vec<StageTime>,
-    /// Every pass that was timed.
+    /// Times of every pass that was timed.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub passes: Vec<Pass>,
-    /// Bytes.
+    /// Memory of the run, bytes.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub memory: Option<Memory>,
     /// Counts that do not depend on the machine.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub counters: Option<Counters>,
-    /// Hits against the oracle.
+    /// Accuracy of hits against the oracle.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub accuracy: Option<Accuracy>,
-    /// Image against the reference.
+    /// Errors of the image against the reference.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub image: Option<ImageError>,
-    /// The hard case that was traced.
+    /// Verdict on the hard case that was traced.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub hard: Option<HardRecord>,
 }
 
 impl Run {
-    /// System and preset, and the variant where there are several.
+    /// Returns the system and preset, and the variant where there are several.
     pub fn contestant(&self) -> String {
         let parts = [Some(self.system.as_str()), Some(self.preset.as_str()), self.variant.as_deref()];
         parts.into_iter().flatten().filter(|part| !part.is_empty()).collect::<Vec<_>>().join(" ")

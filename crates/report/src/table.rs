@@ -1,4 +1,4 @@
-//! The report as text for people.
+//! Text of a report for people.
 
 use crate::run_text::{heading, run_text, verdict};
 use crate::{
@@ -6,7 +6,7 @@ use crate::{
 };
 use std::fmt::Write;
 
-/// One row per run: speed next to error.
+/// Writes one row per run: speed next to error.
 fn summary(runs: &[Run], width: Option<usize>) -> String {
     let dash = || "-".to_owned();
     let titles = [
@@ -28,7 +28,7 @@ fn summary(runs: &[Run], width: Option<usize>) -> String {
     for run in runs {
         let number = |value: Option<f64>| value.map_or_else(dash, |value| format!("{value:.3}"));
         let accuracy = run.accuracy.as_ref();
-        // A share with the upper end of its interval: what the count alone does not exclude.
+        // A share is shown with the upper end of its interval, which the count alone does not exclude.
         let share = |name: &str, count: Option<u64>| {
             let Some(count) = count else { return dash() };
             let rate = accuracy.and_then(|accuracy| accuracy.rates.get(name));
@@ -63,7 +63,7 @@ fn summary(runs: &[Run], width: Option<usize>) -> String {
     width.map_or_else(|| columns(&rows, 1), |width| columns_within(&rows, 1, width))
 }
 
-/// Note on the confidence of the rates, one by one and together.
+/// Writes the note on the confidence of the rates, one by one and together.
 fn certainty(statistics: &Statistics) -> String {
     format!(
         "<: upper end of the interval; intervals hold with {} % each (Clopper-Pearson; 3/N where nothing or everything happened); for all {} rates \
@@ -75,19 +75,19 @@ fn certainty(statistics: &Statistics) -> String {
     )
 }
 
-/// Runs up to which each is printed in full; more are read in a file.
+/// Largest number of runs that are each printed in full; more runs are easier to read in a file.
 const RUNS_IN_FULL: usize = 24;
 
-/// The report for people: device, scene, and in words the `camera` that it was seen from; then what came of
-/// the runs in short, or in `full` each of them with every number unless they are very many, and with several
-/// runs one line each for comparison.
+/// Writes the report for people: the device, the scene, and the words of the `camera` from which it was seen;
+/// then the results of the runs in short or, with `full`, every number of each run unless there are very many
+/// runs; and with several runs one line for each, for comparison.
 pub fn table(report: &Report, camera: Option<&str>, full: bool) -> String {
     table_within(report, camera, full, None)
 }
 
-/// [`table()`] in lines of at most `width` characters, where that is given: columns that do not fit come
-/// below in further blocks, and longer lines are broken between words, but for the camera's, which is there
-/// to be copied.
+/// Writes [`table()`] in lines of at most `width` characters, where a width is given. Columns that do not fit
+/// follow below in further blocks. Longer lines are broken between words, except the camera's line, which is
+/// meant to be copied.
 pub fn table_within(report: &Report, camera: Option<&str>, full: bool, width: Option<usize>) -> String {
     let whole = unbroken(report, camera, full, width);
     let Some(width) = width else { return whole };
@@ -125,7 +125,7 @@ fn unbroken(report: &Report, camera: Option<&str>, full: bool, width: Option<usi
     if let Some(camera) = camera {
         _ = writeln!(text, "camera {}", in_line(camera));
     }
-    // One of a kind: comparisons are told what to compare.
+    // Only reports of a chosen system have a reason; comparisons are told what to compare.
     if let [Run { system, chosen: Some(reason), .. }, ..] = report.runs.as_slice() {
         _ = writeln!(text, "system {system}: {reason}");
     }
@@ -156,7 +156,7 @@ fn unbroken(report: &Report, camera: Option<&str>, full: bool, width: Option<usi
     text
 }
 
-/// A run and its times, in two lines.
+/// Writes a run and its times in two lines.
 fn in_short(run: &Run) -> String {
     let times = &run.times;
     let took = |name: &str, value: Option<f64>| value.map(|value| format!("{name} {}", duration(value)));
@@ -175,7 +175,7 @@ fn in_short(run: &Run) -> String {
     format!("image  {}\n       {}\n", heading(run), parts.join(", "))
 }
 
-/// A line for each verdict on a hard case.
+/// Writes a line for each verdict on a hard case.
 fn verdicts(runs: &[Run]) -> String {
     let rows: Vec<_> = runs
         .iter()
@@ -215,7 +215,7 @@ mod tests {
         assert!(last.contains("brute-force robust eye") && last.trim_end().ends_with('-'), "{last}");
     }
 
-    /// Every cell of a table is shown once, however narrow a terminal is.
+    /// Checks that every cell of a table is shown once, however narrow a terminal is.
     #[test]
     fn a_table_fits_its_terminal() {
         let rate = RateRecord::of(Rate { count: 812, total: 199_000 }).expect("something was tried");
@@ -293,7 +293,7 @@ mod tests {
             assert!(text.contains(words), "{words}: {text}");
         }
         assert!(text.lines().any(|line| line.trim_end().ends_with("NOT MET")), "{text}");
-        // Very many runs have a line each and no more.
+        // Very many runs have one line each and nothing more.
         let many = vec![report.runs[0].clone(); RUNS_IN_FULL + 1];
         let text =
             table(&Report::new(Origin::default(), Device::default(), report.scene.clone(), many), None, true);

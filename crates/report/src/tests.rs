@@ -1,4 +1,4 @@
-//! Reports as files, and what they say of all rates together.
+//! Tests of reports as files, and of the confidence of all rates of a report together.
 
 use super::*;
 use rasray_metrics::Rate;
@@ -72,7 +72,8 @@ fn every_rate_has_an_interval_alone_and_one_among_all() {
     let [low, high] = wide.family_interval.expect("one of four");
     assert_eq!(wide.interval, one.interval);
     assert!(low < wide.interval[0] && wide.interval[1] < high && wide.bound == Bound::ClopperPearson);
-    // Three of 1000 for a rate that was never seen, and more for one of four such rates.
+    // The upper end is 3 of 1000 for a single rate whose event was never seen, and greater for one of four
+    // such rates.
     let never = rate(&many, 0, "false_hits");
     assert_eq!((never.bound, never.interval[0]), (Bound::OneSided, 0.0));
     assert!((never.interval[1] - 0.002_996).abs() < 1e-6, "{never:?}");

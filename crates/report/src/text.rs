@@ -1,24 +1,24 @@
-//! Names and numbers as people read them.
+//! Escaping of names and numbers in text for people.
 
 use std::borrow::Cow;
 
-/// Text of one or several lines with every character that a terminal obeys written out, such as `\u{1b}`:
-/// controls but line breaks and tabs, and those that turn the direction of what follows.
+/// Escapes every character in a text of one or several lines that a terminal interprets, such as `\u{1b}`:
+/// controls except line breaks and tabs, and characters that change the direction of the text after them.
 pub fn escaped(text: &str) -> Cow<'_, str> {
     written_out(text, &['\n', '\t'])
 }
 
-/// [`escaped`], but `kept` are not written out either.
+/// Escapes like [`escaped`], except for the characters in `kept`.
 pub fn escaped_but<'a>(text: &'a str, kept: &[char]) -> Cow<'a, str> {
     written_out(text, &[&['\n', '\t'], kept].concat())
 }
 
-/// [`escaped`] for a name within a line, whose line breaks and tabs are written out as well.
+/// Escapes like [`escaped`] for a name within a line: line breaks and tabs are escaped as well.
 pub fn in_line(text: &str) -> Cow<'_, str> {
     written_out(text, &[])
 }
 
-/// The words of a text with single spaces between them, for one line.
+/// Joins the words of a text with single spaces, for one line.
 pub fn one_line(text: &str) -> String {
     in_line(&text.split_whitespace().collect::<Vec<_>>().join(" ")).into_owned()
 }
@@ -45,13 +45,13 @@ fn is_obeyed(character: char) -> bool {
     character.is_control() || turns || separates
 }
 
-/// JSON text in which every such character is escaped as JSON does it, so that nothing is left for
-/// [`escaped`]; in valid JSON they stand in strings only, but for the line breaks between them.
+/// Escapes every such character in JSON text the way JSON does it, so that nothing is left for [`escaped`].
+/// In valid JSON these characters stand only in strings, except for the line breaks between them.
 pub fn json_escaped(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
     for character in text.chars() {
         if is_obeyed(character) && character != '\n' {
-            // None of them is beyond the sixteen bits that one escape holds.
+            // No such character is beyond the sixteen bits that one escape holds.
             escaped += &format!("\\u{:04x}", u32::from(character));
         } else {
             escaped.push(character);

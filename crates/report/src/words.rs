@@ -1,9 +1,10 @@
-//! Numbers and columns as people read them.
+//! Words for numbers, and aligned columns, as people read them.
 
 use crate::in_line;
 use std::fmt::Write;
 
-/// Milliseconds as people say them. A sum of none is -0 in Rust, and is 0 here.
+/// Writes milliseconds in the unit that people use. A sum of no terms is -0 in Rust, and is written as 0
+/// here.
 pub fn duration(milliseconds: f64) -> String {
     let milliseconds = milliseconds + 0.0;
     if milliseconds < 1000.0 {
@@ -13,7 +14,7 @@ pub fn duration(milliseconds: f64) -> String {
     }
 }
 
-/// Aligned columns: the first `left` to the left, the others to the right.
+/// Aligns columns: the first `left` to the left, the others to the right.
 pub fn columns(rows: &[Vec<String>], left: usize) -> String {
     let rows: Vec<Vec<_>> = rows.iter().map(|row| row.iter().map(|cell| in_line(cell)).collect()).collect();
     let count = rows.iter().map(Vec::len).max().unwrap_or(0);
@@ -37,8 +38,8 @@ pub fn columns(rows: &[Vec<String>], left: usize) -> String {
     text
 }
 
-/// [`columns`] in lines of at most `width` characters where that can be: columns that do not fit beside the
-/// first `left` come below, in further blocks that repeat these.
+/// Aligns like [`columns`] in lines of at most `width` characters where possible. Columns that do not fit
+/// beside the first `left` follow below, in further blocks that repeat the first `left` columns.
 pub fn columns_within(rows: &[Vec<String>], left: usize, width: usize) -> String {
     let count = rows.iter().map(Vec::len).max().unwrap_or(0);
     let widest = |column: usize| {
@@ -74,15 +75,15 @@ pub fn columns_within(rows: &[Vec<String>], left: usize, width: usize) -> String
     blocks.iter().map(block).collect::<Vec<_>>().join("\n")
 }
 
-/// Lines of at most `width` characters where their words allow it: longer ones are broken at spaces and go on
-/// `indent` spaces from the left.
+/// Breaks text into lines of at most `width` characters where its words allow it: longer lines are broken at
+/// spaces and continue `indent` spaces from the left.
 pub fn wrapped(text: &str, width: usize, indent: usize) -> String {
     let mut lines = String::new();
     for line in text.lines() {
         let mut rest: Vec<char> = line.chars().collect();
         let mut start = 0;
         while rest.len() > width {
-            // Not within the indentation, where a break would leave an empty line.
+            // No break is made within the indentation, where it would leave an empty line.
             let first = start.max(rest.iter().position(|one| *one != ' ').unwrap_or(0));
             let is_space = |place: &usize| rest[*place] == ' ';
             let before = (first + 1..=width).rev().find(is_space);
@@ -103,7 +104,7 @@ pub fn wrapped(text: &str, width: usize, indent: usize) -> String {
     lines
 }
 
-/// Bytes with a binary unit, exact below 1 KiB.
+/// Writes bytes with a binary unit, exact below 1 KiB.
 pub fn bytes(value: u64) -> String {
     const UNITS: [&str; 4] = ["KiB", "MiB", "GiB", "TiB"];
     let mut scaled = value as f64;
@@ -118,7 +119,7 @@ pub fn bytes(value: u64) -> String {
     if unit == "B" { format!("{value} B") } else { format!("{scaled:.2} {unit}") }
 }
 
-/// A whole number with its thousands apart.
+/// Writes a whole number with its thousands separated.
 pub fn grouped(value: u64) -> String {
     let digits = value.to_string();
     let mut text = String::new();
@@ -147,7 +148,7 @@ mod tests {
         let rows = [row(["run", "ms", "missed", "FLIP"]), row(["mmrt robust", "12.5", "1,024", "0.25"])];
         for width in [18, 24, 27, 80] {
             let text = columns_within(&rows, 1, width);
-            // The name and the widest of the others.
+            // The least width holds the name and the widest of the other columns.
             assert!(text.lines().all(|line| line.chars().count() <= width.max(21)), "{width}: {text}");
             for word in ["12.5", "1,024", "0.25", "missed"] {
                 assert_eq!(text.matches(word).count(), 1, "{width}: {text}");
