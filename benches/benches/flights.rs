@@ -1,9 +1,9 @@
 //! Gains of frames in flight: `cargo bench --bench flights -- [SCENE] [WIDTHxHEIGHT] [FRAMES] [SYSTEM]`.
 //!
-//! Pictures of a scene that moves, of one path of four bounces per pixel: made step by step, each waited for,
-//! and in frames with one to three in flight. Ways take turns; medians over rounds of the milliseconds per
-//! frame, with quartiles. Pictures of all ways must be equal bit for bit. Times of software devices are for
-//! ratios on that device.
+//! Renders pictures of a scene that moves, with one path of four bounces per pixel, step by step with a wait
+//! after each step, and in frames with one to three in flight. The ways take turns. Prints medians over
+//! rounds of the milliseconds per frame, with quartiles. Pictures of all ways must be equal bit for bit.
+//! Times of software devices are only for ratios on that device.
 
 use std::error::Error;
 use std::ffi::OsStr;
@@ -25,7 +25,7 @@ use rasray_tracer::{FrameSettings, FrameStructure, refresh_until_complete};
 
 type Result<T> = std::result::Result<T, Box<dyn Error>>;
 
-/// Frames in flight; 0 is one step after the other.
+/// Numbers of frames in flight; 0 is one step after the other.
 const WAYS: [u32; 4] = [0, 1, 2, 3];
 const ROUNDS: usize = 5;
 const BOUNCES: u32 = 4;
@@ -67,7 +67,7 @@ fn main() -> Result<()> {
     Ok(())
 }
 
-/// Scene and integrator that one way renders with.
+/// Scene and integrator with which one way renders.
 struct Setting<'a> {
     device: &'a Device,
     loaded: &'a LoadedScene,
@@ -105,7 +105,7 @@ impl<'a> Setting<'a> {
         Ok(pose.frame(&loaded.scene, &moment)?)
     }
 
-    /// The first frame is not timed: it compiles kernels and grows pools.
+    /// Renders step by step. The first frame is not timed, because it compiles kernels and grows pools.
     fn step_by_step(self, count: u32) -> Result<Rendered> {
         let Self { device, loaded, spec, view, scene, pose, path } = self;
         let structure = spec.create(device, scene.geometry(), Some(scene.binding()))?;

@@ -1,11 +1,12 @@
 //! Costs of frames of a scene that moves: `cargo bench --bench frames -- [SCENE] [WIDTHxHEIGHT] [FRAMES]
 //! [SYSTEM,...]`.
 //!
-//! Per system the medians over frames of pose, build, trace, surfaces and shade, each timed by itself, and
-//! from these the time of a frame at 1, 4 and 16 rays per pixel, divided by that of a tree rebuilt by Morton
-//! codes. `crossover` is the number of rays per pixel up to which the system is faster than that tree, or
-//! from which on. Rays are those of the camera; `cells`, `entries` and `tests` are what one of them reads on
-//! average, counted in a trace that is not timed. Times of software devices are for ratios on that device.
+//! Prints for each system the medians over frames of pose, build, trace, surfaces and shade, each timed by
+//! itself. From these follows the time of a frame at 1, 4 and 16 rays per pixel, divided by the time with a
+//! tree that is rebuilt by Morton codes. `crossover` is the number of rays per pixel up to which, or from
+//! which on, the system is faster than that tree. Rays are those of the camera; `cells`, `entries` and
+//! `tests` are the averages per ray, counted in a trace that is not timed. Times of software devices are only
+//! for ratios on that device.
 
 use std::error::Error;
 use std::ffi::OsStr;
@@ -26,12 +27,12 @@ use rasray_tracer::{FrameSettings, FrameStructure, Refresh, refresh_until_comple
 
 type Result<T> = std::result::Result<T, Box<dyn Error>>;
 
-/// A system, an option of it, and true if what moves is a part by itself, the only one that is built with
-/// every frame.
+/// Variant: a system, an option of the system, and true if the moving part is a part by itself, the only one
+/// that is built with every frame.
 type Variant = (&'static str, Option<[&'static str; 2]>, bool);
 
-/// Systems with several rows; all other systems of the registry have one, without options. The first row is
-/// what the others are divided by.
+/// Variants of the systems with several rows; all other systems of the registry have one row, without
+/// options. The times of the first row divide those of all others.
 const VARIANTS: [Variant; 8] = [
     ("bvh", Some(["builder", "lbvh"]), false),
     ("bvh", Some(["builder", "lbvh"]), true),
@@ -43,13 +44,13 @@ const VARIANTS: [Variant; 8] = [
     ("bricks", None, true),
 ];
 
-/// The system that has no row: it tests every triangle against every ray of every frame.
+/// System without a row, because it tests every triangle against every ray of every frame.
 const LEFT_OUT: &str = "brute-force";
 
-/// Rays per pixel of the frames in the table.
+/// Numbers of rays per pixel of the frames in the table.
 const RAYS: [u32; 3] = [1, 4, 16];
 
-/// One frame after the other, in pools with half as much again as they have to hold.
+/// Settings of frames that follow one after the other, in pools with half as much again as they have to hold.
 const SETTINGS: FrameSettings = FrameSettings { slots: 1, headroom: 50 };
 
 /// Medians over frames, milliseconds.
@@ -62,7 +63,7 @@ struct Frame {
     shade: f64,
 }
 
-/// Work per ray, on average.
+/// Average work per ray.
 #[derive(Clone, Copy)]
 struct Work {
     cells: f64,
@@ -70,7 +71,7 @@ struct Work {
     tests: f64,
 }
 
-/// Costs of a system.
+/// Measured costs of a system.
 struct Measured {
     title: String,
     frame: Frame,
@@ -78,7 +79,7 @@ struct Measured {
 }
 
 impl Frame {
-    /// At a number of rays per pixel, of which each is traced and shaded.
+    /// Returns the costs at a number of rays per pixel, each of which is traced and shaded.
     fn at(&self, rays: f64) -> f64 {
         self.pose + self.build + rays * self.per_ray()
     }
@@ -102,7 +103,7 @@ fn main() -> Result<()> {
     let wanted: Vec<&str> = more.iter().flat_map(|names| names.split(',')).collect();
     let mut measured = Vec::new();
     for (system, option, in_parts) in variants() {
-        // The baseline is always there.
+        // The baseline is always measured.
         if !(wanted.is_empty() || measured.is_empty() || wanted.contains(&system)) {
             continue;
         }
@@ -123,7 +124,7 @@ fn main() -> Result<()> {
     Ok(())
 }
 
-/// Rows of the table, in its order.
+/// Returns the variants in the order of the table's rows.
 fn variants() -> impl Iterator<Item = Variant> {
     let is_single = |name: &str| name != LEFT_OUT && VARIANTS.iter().all(|(system, ..)| *system != name);
     let single = SYSTEMS.iter().map(|system| system.name).filter(move |name| is_single(name));
@@ -153,7 +154,7 @@ fn print(measured: &[Measured]) {
     }
 }
 
-/// Intersection of two lines over the rays per pixel.
+/// Returns the intersection of two lines over the rays per pixel.
 fn crossover(frame: &Frame, baseline: &Frame) -> String {
     let (fixed, slope) = (frame.at(0.0) - baseline.at(0.0), frame.per_ray() - baseline.per_ray());
     let at = -fixed / slope;
@@ -192,7 +193,7 @@ fn frames(
     let mut setting = Setting { device, stage, image, loaded };
     let mut structure = setting.create(spec, in_parts)?;
     let mut all = Vec::new();
-    // The first compiles kernels and grows pools.
+    // The first frame compiles kernels and grows pools, and is not timed.
     for number in 0..=count {
         let frame = setting.frame(&mut structure, number)?;
         if number > 0 {
@@ -207,8 +208,8 @@ fn frames(
         surfaces: middle(|frame| frame.surfaces),
         shade: middle(|frame| frame.shade),
     };
-    // Kernels that count are others. A tree that is refitted has to keep the order of the first frame, as the
-    // one that was timed did.
+    // Kernels that count differ from the timed ones. A tree that is refitted has to keep the order of the
+    // first frame, as the timed tree did.
     let mut counting = setting.create(&spec.clone().with_counters(Counters::Sums), in_parts)?;
     for number in [0, count] {
         setting.show(number)?;
@@ -243,7 +244,7 @@ impl Setting<'_> {
         Ok(FrameStructure::new(self.device, structure, SETTINGS)?)
     }
 
-    /// Poses the scene for a frame: milliseconds.
+    /// Poses the scene for a frame, and returns the milliseconds.
     fn show(&mut self, number: u32) -> Result<f64> {
         let clips = self.loaded.scene.animation.rig.compatible_clips();
         let moment = Moment { seconds: f64::from(number) / 25.0, clips };
@@ -251,8 +252,8 @@ impl Setting<'_> {
         Ok(shown.host_milliseconds + total(&shown.passes, |_| true))
     }
 
-    /// Builds what has moved, milliseconds: the build that is complete; those before it, in which pools grew,
-    /// are not counted. The camera stands still.
+    /// Builds the structure after motion, and returns the milliseconds of the complete build; builds before
+    /// it, in which pools grew, are not counted. The camera does not move.
     fn build(&self, structure: &mut FrameStructure) -> Result<f64> {
         let (device, viewpoint) = (self.device, self.stage.scene.viewpoint());
         structure.geometry_moved();
@@ -260,7 +261,7 @@ impl Setting<'_> {
         Ok(built.prepare_milliseconds + total(&built.passes, |_| true))
     }
 
-    /// Traces and shades one ray per pixel: times of the passes.
+    /// Traces and shades one ray per pixel, and returns the times of the passes.
     fn trace(&mut self, structure: &dyn Structure) -> Result<Vec<PassTiming>> {
         let mut all = Vec::new();
         self.image.clear()?;
@@ -277,7 +278,7 @@ impl Setting<'_> {
         Ok(all)
     }
 
-    /// One frame, each part waited for.
+    /// Makes one frame, and waits after each part.
     fn frame(&mut self, structure: &mut FrameStructure, number: u32) -> Result<Frame> {
         let pose = self.show(number)?;
         let build = self.build(structure)?;

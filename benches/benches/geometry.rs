@@ -23,7 +23,7 @@ type Result<T> = std::result::Result<T, Box<dyn Error>>;
 
 const REPETITIONS: u32 = 7;
 
-/// Triangles of a draw: its vertices have indices of 16 bits.
+/// Largest number of triangles per draw, small enough for the draw's vertices to have 16-bit indices.
 const DRAW_TRIANGLES: usize = 20_000;
 
 /// Layout of triangles in buffers.
@@ -32,12 +32,12 @@ struct Layout {
     name: &'static str,
     /// Bytes from one position to the next.
     stride: u32,
-    /// Indices of each draw from its own first vertex, of this format; absent: u32, from the first vertex of
-    /// all.
+    /// Format of the indices of each draw, which count from the draw's own first vertex; absent for u32
+    /// indices that count from the first vertex of all.
     per_draw: Option<IndexFormat>,
 }
 
-/// Packed first, which the others are divided by.
+/// Layouts, the packed one first: its times divide those of the others.
 const LAYOUTS: [Layout; 5] = [
     Layout { name: "12 bytes, u32", stride: 12, per_draw: None },
     Layout { name: "32 bytes, u32", stride: 32, per_draw: None },
@@ -46,11 +46,11 @@ const LAYOUTS: [Layout; 5] = [
     Layout { name: "32 bytes, u16 per draw", stride: 32, per_draw: Some(IndexFormat::U16) },
 ];
 
-/// Systems, and an option of some.
+/// Systems, and an option for some of them.
 const SYSTEMS: [(&str, Option<[&str; 2]>); 3] =
     [("bricks", None), ("bvh", Some(["builder", "lbvh"])), ("dirt", None)];
 
-/// Vertices and indices as the layout has them, with a draw for each run of triangles.
+/// Arranges vertices and indices in the layout, with a draw for each run of triangles.
 fn arranged(positions: &[[f32; 3]], indices: &[u32], layout: Layout) -> (Vec<[f32; 3]>, Vec<u32>, Vec<Draw>) {
     let count = indices.len() / 3;
     if layout.per_draw.is_none() {
@@ -78,7 +78,7 @@ fn arranged(positions: &[[f32; 3]], indices: &[u32], layout: Layout) -> (Vec<[f3
     (vertices, local, draws)
 }
 
-/// The triangles in buffers of that layout.
+/// Uploads the triangles into buffers of that layout.
 fn geometry(
     device: &Device,
     (positions, indices, bounds): (&[[f32; 3]], &[u32], [[f32; 3]; 2]),
@@ -125,7 +125,7 @@ fn geometry(
     Ok(Geometry::new(device, desc)?)
 }
 
-/// A structure over one layout, and what it took.
+/// Structure over one layout, and its measured times.
 struct Measured {
     structure: Box<dyn Structure>,
     builds: Vec<f64>,
@@ -161,7 +161,7 @@ fn main() -> Result<()> {
                 let built = build_until_complete(&device, measured.structure.as_mut(), eye, timing)?;
                 let traced = tracer.trace(measured.structure.as_ref(), &rays, TraceMode::Closest, timing)?;
                 if repetition > 0 {
-                    // The first one compiles kernels and grows pools.
+                    // The first build compiles kernels and grows pools, and is not timed.
                     measured.builds.push(built.passes.iter().map(|pass| pass.milliseconds).sum());
                     measured.traces.push(traced.milliseconds());
                 }

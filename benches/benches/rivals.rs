@@ -1,10 +1,10 @@
-//! Trees of ours next to Embree's: `cargo bench --bench rivals -- [SCENE] [RAYS]`.
+//! Trees of this project next to Embree's: `cargo bench --bench rivals -- [SCENE] [RAYS]`.
 //!
-//! Prints builds and traces of the same triangles and rays, alternated between tracers in one process:
-//! medians on the wall and of the processor, and what of the answers is wrong by the exact oracle. Embree is
-//! loaded where `RASRAY_EMBREE` or the system has it; else its rows say how to get it. Both trace on as many
-//! threads as llvmpipe has: those of `LP_NUM_THREADS`, or one a processor. Alpha masks and backs are hit as
-//! all else is. Times of software devices are for ratios on that device.
+//! Prints builds and traces of equal triangles and rays, alternated between tracers in one process: medians
+//! of wall time and processor time, and the errors of the answers by the exact oracle. Embree is loaded if
+//! `RASRAY_EMBREE` or the system has it; otherwise its rows say how to get it. Both trace on as many threads
+//! as llvmpipe has: `LP_NUM_THREADS`, or one per processor. Alpha masks and backs are hit like any other
+//! surface. Times of software devices are only for ratios on that device.
 
 use rasray_scene::Sampler;
 use std::error::Error;
@@ -27,7 +27,8 @@ type Result<T> = std::result::Result<T, Box<dyn Error>>;
 
 const REPETITIONS: usize = 5;
 
-/// Ours: the name of the row, the system, and an option. The first is what speeds are divided by.
+/// Systems of this project: the name of the row, the system, and an option. Speeds are divided by those of
+/// the first.
 const SYSTEMS: [(&str, &str, Option<[&str; 2]>); 5] = [
     ("bvh, sah", "bvh", Some(["builder", "sah"])),
     ("bvh, ploc", "bvh", Some(["builder", "ploc"])),
@@ -36,7 +37,7 @@ const SYSTEMS: [(&str, &str, Option<[&str; 2]>); 5] = [
     ("bricks", "bricks", None),
 ];
 
-/// Embree's trees.
+/// Trees of Embree.
 const TREES: [(&str, TreeOptions); 4] = [
     ("Embree", TreeOptions { quality: Quality::Medium, robust: false }),
     ("Embree, robust", TreeOptions { quality: Quality::Medium, robust: true }),
@@ -47,20 +48,20 @@ const TREES: [(&str, TreeOptions); 4] = [
 /// Length of shadow rays, as a share of the scene's diagonal.
 const SHADOW_LENGTH: f32 = 0.25;
 
-/// Who answers rays.
+/// Tracer that answers rays.
 enum Tracer<'a> {
     Ours { structure: Box<dyn Structure>, batch: &'a BatchTracer },
     Theirs { tree: Rc<Tree<'a>>, width: usize },
 }
 
-/// A tracer and what its builds took.
+/// Tracer with the times of its builds.
 struct Row<'a> {
     name: String,
     tracer: Tracer<'a>,
     builds: Vec<Spent>,
 }
 
-/// A set of rays with the truth.
+/// Set of rays with their true answers.
 struct Rays {
     name: &'static str,
     mode: TraceMode,
@@ -69,8 +70,8 @@ struct Rays {
 }
 
 impl Tracer<'_> {
-    /// Hits and what they took: on the wall the traces alone, of the processor also what hands rays over and
-    /// hits back.
+    /// Traces a set, and returns the hits and the time spent: wall time of the traces alone, and processor
+    /// time that includes handing over rays and hits.
     fn trace(&self, device: &Device, set: &Rays) -> Result<(Vec<Option<DeviceHit>>, Spent)> {
         let (traced, spent) = match self {
             Self::Ours { structure, batch } => {
@@ -90,7 +91,7 @@ impl Tracer<'_> {
     }
 }
 
-/// Threads that llvmpipe has: none of its own means that of the caller.
+/// Returns the number of threads of llvmpipe: 0 worker threads mean the caller's thread.
 fn driver_threads() -> usize {
     let named = std::env::var("LP_NUM_THREADS").ok().and_then(|text| text.parse().ok());
     named.unwrap_or_else(|| std::thread::available_parallelism().map_or(1, usize::from)).max(1)
@@ -144,7 +145,7 @@ fn main() -> Result<()> {
     Ok(())
 }
 
-/// The rays of all tables.
+/// Makes the sets of rays of all tables.
 fn sets(source: &RaySource<'_>, count: u32) -> Vec<Rays> {
     let [lower, upper] = source.bounds;
     let diagonal = (0..3).map(|axis| (upper[axis] - lower[axis]).powi(2)).sum::<f32>().sqrt();
@@ -163,8 +164,8 @@ fn sets(source: &RaySource<'_>, count: u32) -> Vec<Rays> {
     sets.into_iter().map(with_truth).collect()
 }
 
-/// Rays from the eye towards points on edges of triangles, as near as rounding lets them be: where meshes are
-/// closed, a test that does not treat both sides of an edge alike loses some.
+/// Makes rays from the eye towards points on edges of triangles, as near as rounding allows. On closed
+/// meshes, a test that does not treat both sides of an edge alike loses some of these rays.
 fn edge_rays(source: &RaySource<'_>, count: u32) -> Vec<Ray> {
     let triangles = source.indices.as_chunks::<3>().0;
     let ray = |index| {
@@ -181,7 +182,7 @@ fn edge_rays(source: &RaySource<'_>, count: u32) -> Vec<Ray> {
     (0..count).map(ray).collect()
 }
 
-/// All tracers, each built once to warm up and then in turns.
+/// Builds all tracers, each once to warm up and then in turns.
 fn built<'a>(
     device: &Device,
     stage: &DeviceScene,
@@ -203,7 +204,7 @@ fn built<'a>(
             let (eye, timing) = (stage.scene.eye(), device.best_timing());
             let (outcome, spent) = spent(|| build_until_complete(device, structure.as_mut(), eye, timing));
             let wall = outcome?.host_milliseconds;
-            // The first one compiles kernels and grows pools.
+            // The first build compiles kernels and grows pools, and is not timed.
             if repetition > 0 {
                 builds.push(Spent { wall, ..spent });
             }
@@ -273,7 +274,7 @@ fn print_set(device: &Device, rows: &[Row<'_>], set: &Rays) -> Result<()> {
     Ok(())
 }
 
-/// Errors of nearest hits, in the order of the columns.
+/// Returns the errors of nearest hits, in the order of the columns.
 fn of_hits(verdicts: &[Verdict], hits: &[Option<DeviceHit>]) -> Result<[String; 7]> {
     let found = HitConfusion::measure(verdicts, hits, 0.0)?;
     let counts = [
@@ -289,7 +290,7 @@ fn of_hits(verdicts: &[Verdict], hits: &[Option<DeviceHit>]) -> Result<[String; 
     Ok([missed, false_hits, wrong, lost, edges, off, largest])
 }
 
-/// Errors of shadows: only whether anything is hit is asked for.
+/// Returns the errors of shadow rays, which ask only whether anything is hit.
 fn of_shadows(verdicts: &[Verdict], hits: &[Option<DeviceHit>]) -> [String; 7] {
     let [mut missed, mut false_hits, mut lost] = [0_u64; 3];
     for (verdict, hit) in verdicts.iter().zip(hits) {
@@ -304,7 +305,7 @@ fn of_shadows(verdicts: &[Verdict], hits: &[Option<DeviceHit>]) -> [String; 7] {
     [missed.to_string(), false_hits.to_string(), absent(), lost.to_string(), absent(), absent(), absent()]
 }
 
-/// On the wall and of the processor, milliseconds.
+/// Returns the medians of wall time and processor time, milliseconds.
 fn medians(times: &[Spent]) -> [Option<f64>; 2] {
     let wall: Vec<_> = times.iter().map(|spent| spent.wall).collect();
     let processor: Vec<_> = times.iter().filter_map(|spent| spent.processor).collect();

@@ -1,18 +1,18 @@
-//! Processor time, which other work on a machine changes less than wall time.
+//! Clock of processor time, which depends less on other work on the machine than wall time does.
 
 use std::time::Instant;
 
-/// Time of a call.
+/// Time spent in a call.
 #[derive(Clone, Copy, Debug)]
 pub struct Spent {
-    /// Milliseconds on the wall.
+    /// Wall time, milliseconds.
     pub wall: f64,
-    /// Milliseconds of all threads of this process, a software driver's too; absent where the system has no
-    /// such clock.
+    /// Processor time of all threads of this process, including threads of a software driver, milliseconds;
+    /// absent where the system has no such clock.
     pub processor: Option<f64>,
 }
 
-/// Calls a function, and says what that took.
+/// Calls a function, and returns its result with the time spent.
 pub fn spent<T>(call: impl FnOnce() -> T) -> (T, Spent) {
     let (started, processor) = (Instant::now(), processor_milliseconds());
     let answer = call();
@@ -20,18 +20,18 @@ pub fn spent<T>(call: impl FnOnce() -> T) -> (T, Spent) {
     (answer, Spent { wall: started.elapsed().as_secs_f64() * 1.0e3, processor })
 }
 
-/// Processor time of all threads of this process, since it began.
+/// Returns the processor time of all threads of this process since it began, milliseconds.
 #[cfg(unix)]
 fn processor_milliseconds() -> Option<f64> {
     let mut time = std::mem::MaybeUninit::<libc::timespec>::uninit();
     // SAFETY: the pointer is to memory for a `timespec`, which the call writes.
     let answer = unsafe { libc::clock_gettime(libc::CLOCK_PROCESS_CPUTIME_ID, time.as_mut_ptr()) };
-    // SAFETY: the call wrote it, as it says.
+    // SAFETY: the call wrote the value, as its return value 0 says.
     let time = (answer == 0).then(|| unsafe { time.assume_init() })?;
     Some(time.tv_sec as f64 * 1.0e3 + time.tv_nsec as f64 / 1.0e6)
 }
 
-/// Processor time of all threads of this process, since it began.
+/// Returns the processor time of all threads of this process since it began, milliseconds.
 #[cfg(not(unix))]
 fn processor_milliseconds() -> Option<f64> {
     None

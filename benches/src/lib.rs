@@ -1,5 +1,5 @@
-//! Shared parts of benches: the words of their command lines, tracers of others to be measured beside,
-//! clocks.
+//! Shared parts of benches: words of their command lines, other tracers to be measured beside this project's,
+//! and clocks.
 
 pub mod clock;
 pub mod embree;

@@ -1,24 +1,24 @@
-//! Arguments of benches of scenes that move, behind the words of the command.
+//! Arguments of benches of scenes that move, after the words of the command.
 
 use std::error::Error;
 
-/// `[SCENE] [WIDTHxHEIGHT] [FRAMES] [MORE]`.
+/// Arguments `[SCENE] [WIDTHxHEIGHT] [FRAMES] [MORE]`.
 pub struct Arguments {
-    /// Name of a scene, `walker` unless told.
+    /// Name of the scene, `walker` by default.
     pub scene: String,
-    /// Pixels, 320x180 unless told.
+    /// Width and height in pixels, 320x180 by default.
     pub size: [u32; 2],
-    /// Above 0.
+    /// Number of frames, greater than 0.
     pub frames: u32,
-    /// The fourth word.
+    /// Fourth word, where given.
     pub more: Option<String>,
 }
 
 impl Arguments {
-    /// Reads them; `frames` are made unless told.
+    /// Reads the arguments; `frames` is the default number of frames.
     ///
     /// # Errors
-    /// A word that is no size, or no number of frames above 0.
+    /// A word is not a size, or not a number of frames greater than 0.
     pub fn read(frames: u32) -> Result<Self, Box<dyn Error>> {
         let mut words = std::env::args().skip(1).filter(|word| !word.starts_with("--"));
         let scene = words.next().unwrap_or_else(|| "walker".to_owned());

@@ -1,4 +1,4 @@
-//! A built-in scene and a number of rays, as the command lines of benches of structures have them.
+//! Setting of benches of structures: a built-in scene and a number of rays, from their command lines.
 
 use std::error::Error;
 
@@ -10,29 +10,28 @@ use rasray_scene::{Camera, builtin, default_view};
 /// Seed of all random numbers.
 pub const SEED: u32 = 1;
 
-/// Pixels of the image that the camera's rays are shaped by.
+/// Width and height of the image that shapes the camera's rays, pixels.
 pub const SIZE: [u32; 2] = [64, 64];
 
-/// A scene on a device, and how many rays are traced.
+/// Scene on a device, and the number of rays to trace.
 pub struct Setting {
     /// Name of the scene.
     pub name: String,
     /// Number of rays.
     pub rays: u32,
-    /// From where it is seen.
+    /// Camera from which the scene is seen.
     pub camera: Camera,
     /// Device that traces.
     pub device: Device,
-    /// The scene there.
+    /// Scene on the device.
     pub stage: DeviceScene,
 }
 
 impl Setting {
-    /// Reads `[SCENE] [RAYS]` behind the words of the command, with what stands for them where they are left
-    /// out.
+    /// Reads `[SCENE] [RAYS]` after the words of the command; `scene` and `rays` are the defaults.
     ///
     /// # Errors
-    /// There is no such scene, no device, or RAYS is no number above 0.
+    /// There is no such scene or no device, or RAYS is not a number greater than 0.
     pub fn read(command: &str, scene: &str, rays: u32) -> Result<Self, Box<dyn Error>> {
         let mut arguments = std::env::args().skip(1).filter(|argument| !argument.starts_with("--"));
         let name = arguments.next().unwrap_or_else(|| scene.to_owned());

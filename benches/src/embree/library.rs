@@ -1,4 +1,4 @@
-//! The C interface of Embree 4 as far as it is used, by the names and types of its headers
+//! C interface of Embree 4, as far as the benches use it, by the names and types of its headers
 //! `embree4/rtcore*.h`.
 
 use super::packet::{Arguments, Packet};
@@ -8,7 +8,7 @@ use std::ffi::{CStr, CString, OsStr, c_char, c_int, c_uint, c_void};
 use std::ptr::null_mut;
 use std::sync::Arc;
 
-/// A device, a scene or a geometry of the library, which nobody looks into.
+/// Opaque handle of a device, a scene or a geometry of the library.
 type Handle = *mut c_void;
 
 /// `RTC_GEOMETRY_TYPE_TRIANGLE`.
@@ -29,7 +29,7 @@ const TAKES_FILTERS: c_int = 1 << 3;
 const NO_ERROR: c_int = 0;
 /// `RTC_DEVICE_PROPERTY_VERSION_MAJOR`, `_MINOR`, `_PATCH`.
 const VERSION: [c_int; 3] = [1, 2, 3];
-/// Widths of packets, and `RTC_DEVICE_PROPERTY_NATIVE_RAY*_SUPPORTED` of them.
+/// Widths of packets, and the `RTC_DEVICE_PROPERTY_NATIVE_RAY*_SUPPORTED` of each width.
 const WIDTHS: [(usize, c_int); 3] = [(16, 34), (8, 33), (4, 32)];
 
 type NewDevice = unsafe extern "C" fn(*const c_char) -> Handle;
@@ -44,7 +44,7 @@ type Attach = unsafe extern "C" fn(Handle, Handle) -> c_uint;
 type TraceOne = unsafe extern "C" fn(Handle, *mut c_void, *mut Arguments);
 type TracePacket = unsafe extern "C" fn(*const c_int, Handle, *mut c_void, *mut Arguments);
 
-/// The functions of a loaded library.
+/// Functions of a loaded library.
 #[derive(Debug)]
 pub(super) struct Functions {
     new_device: NewDevice,
@@ -71,15 +71,15 @@ pub(super) struct Functions {
 impl Functions {
     /// Loads a library by file or by name.
     pub fn load(name: &OsStr) -> Result<Self, EmbreeError> {
-        // SAFETY: what a library does when it is loaded is its own. The user named it, or it is the one that
-        // is installed under this name; its initialisers have no conditions.
+        // SAFETY: the actions of a library at loading are its own responsibility. The user named the library,
+        // or it is the one that is installed under this name; its initialisers have no preconditions.
         let library = unsafe { Library::new(name) }
             .map_err(|error| EmbreeError::Missing { reason: error.to_string() })?;
         let lacks = |error: libloading::Error| EmbreeError::Unsuitable {
             name: name.to_owned(),
             reason: error.to_string(),
         };
-        /// A function by its name in the header, with the type that it has there.
+        /// Loads a function by its name in the header, with the type that it has there.
         macro_rules! function {
             ($name:literal) => {
                 // SAFETY: the headers of version 4 declare the function with the type of the field that it
@@ -114,26 +114,26 @@ impl Functions {
                 [function!(b"rtcIntersect16\0"), function!(b"rtcOccluded16\0")],
             ],
         };
-        // Its threads still run when its last device is gone, and would run in code that is not there any
-        // more.
+        // The library's threads still run when its last device is gone, and would run in unloaded code if the
+        // library was closed.
         std::mem::forget(library);
         Ok(functions)
     }
 }
 
-/// A device of the library; released when it goes.
+/// Device of the library, which is released when the last reference is dropped.
 #[derive(Debug)]
 pub(super) struct Device(Arc<Owned>);
 
-/// A device with the functions that reach it. Scenes share it, since the library counts what refers to a
-/// device.
+/// Handle of a device with the functions that take it. Scenes share it, since the library counts the
+/// references to a device.
 #[derive(Debug)]
 struct Owned {
     functions: Functions,
     handle: Handle,
 }
 
-// SAFETY: the handle is a pointer that only the library looks behind, and the functions of it that take a
+// SAFETY: the handle is a pointer that only the library dereferences, and the library's functions that take a
 // device by a shared reference here (errors, properties, new scenes) may be called from any thread (the
 // library's manual, "Embree API").
 unsafe impl Send for Owned {}
@@ -142,7 +142,7 @@ unsafe impl Sync for Owned {}
 
 impl Drop for Owned {
     fn drop(&mut self) {
-        // SAFETY: the handle is a device, and this is the only reference that is counted here.
+        // SAFETY: the handle is a device, and this value holds the only reference that is counted here.
         unsafe { (self.functions.release_device)(self.handle) };
     }
 }
@@ -160,7 +160,7 @@ impl Owned {
     }
 }
 
-/// Meaning of an `RTCError`.
+/// Converts an `RTCError` into a result.
 fn described(code: c_int) -> Result<(), EmbreeError> {
     let reason = match code {
         NO_ERROR => return Ok(()),
@@ -174,14 +174,15 @@ fn described(code: c_int) -> Result<(), EmbreeError> {
 }
 
 impl Device {
-    /// A device that builds on that many threads.
+    /// Makes a device that builds on that many threads.
     pub fn new(functions: Functions, threads: usize) -> Result<Self, EmbreeError> {
         let config = CString::new(format!("threads={threads}")).unwrap_or_default();
         let config: &CStr = &config;
         // SAFETY: the text ends in 0 and is read before the call returns.
         let handle = unsafe { (functions.new_device)(config.as_ptr()) };
         if handle.is_null() {
-            // SAFETY: for null the error of the last device that could not be made is meant.
+            // SAFETY: for a null handle the function returns the error of the last device that could not be
+            // made.
             let code = unsafe { (functions.device_error)(null_mut()) };
             return Err(described(code).err().unwrap_or_else(|| EmbreeError::Failed("no device".to_owned())));
         }
@@ -197,7 +198,7 @@ impl Device {
         native.map_or(1, |(width, _)| width)
     }
 
-    /// A scene of one geometry, ready to be committed. Indices are below the number of positions.
+    /// Makes a scene of one geometry, ready to be committed. Indices are less than the number of positions.
     pub fn scene(
         &self,
         positions: &[[f32; 3]],
@@ -237,23 +238,23 @@ impl Device {
         Ok(scene)
     }
 
-    /// Error of a call that failed.
+    /// Returns the error of a call that failed.
     fn failed(&self) -> EmbreeError {
         self.0.check().err().unwrap_or_else(|| EmbreeError::Failed("it does not say why".to_owned()))
     }
 }
 
-/// A scene with its geometry; both released when it goes.
+/// Scene with its geometry, both of which are released when the scene is dropped.
 #[derive(Debug)]
 pub(super) struct Scene {
     device: Arc<Owned>,
     handle: Handle,
-    /// Null until it is made.
+    /// Geometry, null until it is made.
     geometry: Handle,
 }
 
-// SAFETY: the handles are pointers that only the library looks behind. `commit` is called before rays are
-// traced, by the one thread that has the scene then, and traces of a committed scene may be called from any
+// SAFETY: the handles are pointers that only the library dereferences. `commit` is called before rays are
+// traced, by the one thread that owns the scene then, and traces of a committed scene may be called from any
 // number of threads at a time (the library's manual, `rtcIntersect1`).
 unsafe impl Send for Scene {}
 // SAFETY: as above.
@@ -262,8 +263,8 @@ unsafe impl Sync for Scene {}
 impl Drop for Scene {
     fn drop(&mut self) {
         let functions = &self.device.functions;
-        // SAFETY: the handles are live, and each is the only reference that is counted here; the scene counts
-        // its own of the geometry.
+        // SAFETY: the handles are live, and this value holds the only reference to each that is counted here;
+        // the scene counts its own reference to the geometry.
         unsafe {
             if !self.geometry.is_null() {
                 (functions.release_geometry)(self.geometry);
@@ -277,8 +278,8 @@ impl Scene {
     /// Copies elements of three words each into a new buffer of the geometry.
     fn fill<T: Copy>(&self, kind: c_int, format: c_int, elements: &[[T; 3]]) -> Result<(), EmbreeError> {
         let stride = size_of::<[T; 3]>();
-        // SAFETY: the geometry is live and not committed; kind and format are of the header, and the library
-        // makes room for what it reads beyond the last element.
+        // SAFETY: the geometry is live and not committed; kind and format are values of the header, and the
+        // library allocates room for its reads beyond the last element.
         let place = unsafe {
             (self.device.functions.new_buffer)(self.geometry, kind, 0, format, stride, elements.len())
         };
@@ -296,7 +297,7 @@ impl Scene {
 
     /// Builds the tree.
     pub fn commit(&self) -> Result<(), EmbreeError> {
-        // SAFETY: geometry and scene are live, and no other thread has them before this returns.
+        // SAFETY: geometry and scene are live, and no other thread uses them before this call returns.
         unsafe {
             (self.device.functions.commit_geometry)(self.geometry);
             (self.device.functions.commit_scene)(self.handle);
@@ -309,7 +310,7 @@ impl Scene {
         self.device.check()
     }
 
-    /// The nearest hits of a packet's rays.
+    /// Finds the nearest hits of a packet's rays.
     pub fn intersect<const N: usize>(&self, packet: &mut Packet<N>, excludes: bool) {
         self.trace::<N>(packet, excludes, 0);
     }
@@ -319,7 +320,7 @@ impl Scene {
         self.trace::<N>(packet, excludes, 1);
     }
 
-    /// `occlusion` is 0 for nearest hits and 1 for occlusion.
+    /// Traces a packet; `occlusion` is 0 for nearest hits and 1 for occlusion.
     fn trace<const N: usize>(&self, packet: &mut Packet<N>, excludes: bool, occlusion: usize) {
         let mut arguments = Arguments::new(excludes);
         let functions = &self.device.functions;

@@ -1,5 +1,5 @@
-//! [Embree](https://www.embree.org) 4 over the triangles of a scene: what a user without a GPU would take.
-//! The library is found when it is asked for: nothing is linked, and benches run without it.
+//! [Embree](https://www.embree.org) 4 over the triangles of a scene: the alternative for a user without a
+//! GPU. The library is loaded at run time: nothing is linked, and benches run without it.
 
 mod library;
 mod packet;
@@ -14,11 +14,11 @@ use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-/// Names a file of the library, or the folder that it is in.
+/// Name of the environment variable that gives the file of the library or its folder.
 pub const LIBRARY_VARIABLE: &str = "RASRAY_EMBREE";
 
-/// Beginning of its files' names, a part that they hold, and the name to look it up by as all libraries are,
-/// on this system.
+/// Names of the library's files on this system: the beginning, a part that each name contains, and the name
+/// for the system's search of libraries.
 const FILE: (&str, &str, &str) = if cfg!(target_os = "windows") {
     ("embree4", ".dll", "embree4.dll")
 } else if cfg!(target_os = "macos") {
@@ -27,15 +27,15 @@ const FILE: (&str, &str, &str) = if cfg!(target_os = "windows") {
     ("libembree4", ".so", "libembree4.so.4")
 };
 
-/// Packets that a thread takes at a time: enough that taking them costs nothing, few enough that threads end
-/// together.
+/// Number of packets that a thread takes at a time: enough to make the cost of taking them negligible, few
+/// enough for the threads to end together.
 const TURN: usize = 128;
 
-/// Why there is no Embree.
+/// Reason for which Embree cannot be used.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum EmbreeError {
-    /// There is no library of that name, or it needs others that are not there.
+    /// No library of that name exists, or it needs other libraries that are missing.
     #[error(
         "Embree 4 is not installed: {reason}; `pip install embreex` has it, and RASRAY_EMBREE names its folder \
          `embreex.libs`, or the file of another one"
@@ -44,40 +44,40 @@ pub enum EmbreeError {
         /// Message of the system.
         reason: String,
     },
-    /// It is of another version than 4, whose functions are other ones.
+    /// The library is not of version 4, whose functions differ from those of other versions.
     #[error("{} is not version 4 of Embree: {reason}", name.display())]
     Unsuitable {
-        /// The library.
+        /// Name of the library.
         name: OsString,
-        /// Part that it lacks.
+        /// Reason: the part that the library lacks.
         reason: String,
     },
-    /// It refused the triangles or this processor.
+    /// The library refused the triangles or this processor.
     #[error("Embree failed: {0}")]
     Failed(String),
 }
 
-/// Work put into a tree.
+/// Quality of a tree, the work that its build takes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Quality {
-    /// By Morton codes, as for scenes that move.
+    /// Tree by Morton codes, as for scenes that move.
     Low,
-    /// By surface area: the library's default.
+    /// Tree by surface area, the library's default.
     Medium,
-    /// By surface area, with triangles that are split; in robust trees as [`Quality::Medium`].
+    /// Tree by surface area, with triangles that are split; in robust trees equal to [`Quality::Medium`].
     High,
 }
 
-/// Options of making a tree.
+/// Options of the build of a tree.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct TreeOptions {
-    /// Work put into it.
+    /// Quality of the tree.
     pub quality: Quality,
     /// `RTC_SCENE_FLAG_ROBUST`: boxes and triangles are tested so that rays do not slip through shared edges.
     pub robust: bool,
 }
 
-/// The library, ready for triangles.
+/// Loaded library, ready for triangles.
 #[derive(Debug)]
 pub struct Embree {
     device: Device,
@@ -85,8 +85,8 @@ pub struct Embree {
     version: String,
 }
 
-/// A tree over triangles. Rays exclude a triangle each through a filter function, which is given to the
-/// library only where one of the rays at hand excludes any; backs and alpha masks are hit as fronts are.
+/// Tree over triangles. A ray excludes a triangle through a filter function, which is given to the library
+/// only if one of the rays to trace excludes any. Backs and alpha masks are hit like fronts.
 #[derive(Debug)]
 pub struct Tree<'a> {
     embree: &'a Embree,
@@ -94,23 +94,23 @@ pub struct Tree<'a> {
     build_milliseconds: f64,
 }
 
-/// Hits of rays, and the time that they took.
+/// Hits of rays, and the time of their trace.
 #[derive(Clone, Debug)]
 pub struct Traced {
-    /// One a ray; of occlusion t is 0 and the triangle unknown.
+    /// Hits, one per ray; for occlusion t is 0 and the triangle unknown.
     pub hits: Vec<Option<DeviceHit>>,
-    /// Milliseconds of the traces on the wall, without those of putting rays into the library's form and hits
-    /// out of it.
+    /// Wall time of the traces, milliseconds, without the time to convert rays into the library's form and
+    /// hits back.
     pub milliseconds: f64,
 }
 
 impl Embree {
-    /// Loads the library that [`LIBRARY_VARIABLE`] names, or else the one that is installed. It builds and
-    /// traces on that many threads.
+    /// Loads the library that [`LIBRARY_VARIABLE`] names, or else the installed one. It builds and traces on
+    /// `threads` threads.
     ///
     /// # Errors
     /// [`EmbreeError::Missing`], [`EmbreeError::Unsuitable`], or [`EmbreeError::Failed`] on a processor that
-    /// it does not run on.
+    /// the library does not support.
     pub fn find(threads: usize) -> Result<Self, EmbreeError> {
         match std::env::var_os(LIBRARY_VARIABLE).filter(|name| !name.is_empty()) {
             Some(name) => Self::load(Path::new(&name), threads),
@@ -118,8 +118,7 @@ impl Embree {
         }
     }
 
-    /// Loads a library by its file, by the folder that it is in, or by its name where it is looked up as all
-    /// libraries are.
+    /// Loads a library by its file, by its folder, or by the name with which the system searches for it.
     ///
     /// # Errors
     /// As [`Embree::find`].
@@ -138,25 +137,26 @@ impl Embree {
         Ok(Self { device, pool, version: format!("Embree {major}.{minor}.{patch}") })
     }
 
-    /// Name and version: `Embree 4.4.0`.
+    /// Returns name and version, such as `Embree 4.4.0`.
     pub fn version(&self) -> &str {
         &self.version
     }
 
-    /// Threads that build and trace.
+    /// Returns the number of threads that build and trace.
     pub fn threads(&self) -> usize {
         self.pool.current_num_threads()
     }
 
-    /// Rays of the largest packets that this processor has instructions for: 1, 4, 8 or 16.
+    /// Returns the number of rays in the largest packets for which this processor has instructions: 1, 4, 8
+    /// or 16.
     pub fn packet_width(&self) -> usize {
         self.device.packet_width()
     }
 
-    /// Builds a tree over triangles: positions (metres) and three indices each. A triangle's id is its place.
+    /// Builds a tree over triangles: positions (metres) and three indices each. A triangle's id is its index.
     ///
     /// # Errors
-    /// [`EmbreeError::Failed`]: an index has no position, or the library refuses them.
+    /// [`EmbreeError::Failed`]: an index has no position, or the library refuses the triangles.
     pub fn build(
         &self,
         positions: &[[f32; 3]],
@@ -175,7 +175,7 @@ impl Embree {
 }
 
 impl Tree<'_> {
-    /// Milliseconds of the build on the wall, without the copy of the triangles.
+    /// Returns the wall time of the build, milliseconds, without the copy of the triangles.
     pub fn build_milliseconds(&self) -> f64 {
         self.build_milliseconds
     }
@@ -184,7 +184,7 @@ impl Tree<'_> {
     /// is not zero.
     ///
     /// # Errors
-    /// [`EmbreeError::Failed`]: there are no packets of that width, or what the library says.
+    /// [`EmbreeError::Failed`]: no packets of that width exist, or the library reports an error.
     pub fn trace(&self, rays: &[Ray], mode: TraceMode, width: usize) -> Result<Traced, EmbreeError> {
         match width {
             1 => self.trace_packets::<1>(rays, mode),
@@ -207,7 +207,7 @@ impl Tree<'_> {
                         TraceMode::Occluded => self.scene.occluded(packet, excludes),
                     }
                 }
-                // Errors are of the thread that they occur in.
+                // The library keeps an error for the thread in which it occurs.
                 self.scene.check()
             })
         })?;
@@ -220,7 +220,7 @@ impl Tree<'_> {
     }
 }
 
-/// The library in a folder, whatever is in its name behind `libembree4`: packages put a version or a hash
+/// Finds the library in a folder, whatever follows `libembree4` in its name: packages put a version or a hash
 /// there.
 fn file_in(folder: &Path) -> Result<PathBuf, EmbreeError> {
     let (beginning, ending, _) = FILE;

@@ -1,4 +1,5 @@
-//! Rays as Embree 4 takes them, by the names of its headers `embree4/rtcore_ray.h` and `rtcore_common.h`.
+//! Packets of rays in the form of Embree 4, by the names of its headers `embree4/rtcore_ray.h` and
+//! `rtcore_common.h`.
 
 use rasray_ads::Ray;
 use rasray_metrics::DeviceHit;
@@ -22,15 +23,15 @@ pub(super) struct Arguments {
     features: c_int,
     context: *mut c_void,
     filter: Option<Filter>,
-    /// Function for geometries that are no triangles.
+    /// Function for geometries that are not triangles.
     function: *mut c_void,
     /// Width of curves; libraries that are built without curves read no further than `function`.
     width: f32,
 }
 
 impl Arguments {
-    /// Arguments for triangles, without a context. They have the filter that refuses what rays exclude where
-    /// any ray excludes something.
+    /// Makes arguments for triangles, without a context. If any ray excludes a triangle, the arguments have
+    /// the filter that refuses excluded triangles.
     pub fn new(excludes: bool) -> Self {
         let filter: Filter = refuse_excluded;
         Self {
@@ -55,8 +56,8 @@ pub(super) struct FilterArguments {
     count: c_uint,
 }
 
-/// `RTCRayHitN` for N rays and, of which it is the beginning, `RTCRayN`; then which lanes are rays. The
-/// members are those of the header, which aligns packets to up to 64 bytes.
+/// Packet of N rays: `RTCRayHitN`, which begins with `RTCRayN`, followed by the flags of the lanes that hold
+/// rays. The members are those of the header, which aligns packets to up to 64 bytes.
 #[repr(C, align(64))]
 pub(super) struct Packet<const N: usize> {
     origin: [[f32; N]; 3],
@@ -65,30 +66,30 @@ pub(super) struct Packet<const N: usize> {
     time: [f32; N],
     far: [f32; N],
     mask: [u32; N],
-    /// The library does not look at ids: here it is the triangle that the ray excludes.
+    /// Triangle that the ray excludes; the library does not look at this id.
     id: [u32; N],
     flags: [u32; N],
     normal: [[f32; N]; 3],
     barycentrics: [[f32; N]; 2],
     primitive: [u32; N],
     geometry: [u32; N],
-    /// Ids that the library fills in but nobody looks at: two a level of instances where it has arrays of
-    /// them, else one. It is built for one level unless somebody chose another number
-    /// (`RTC_MAX_INSTANCE_LEVEL_COUNT`); there is room for four.
+    /// Ids that the library fills in and nothing reads: two per level of instances where the library has
+    /// arrays of them, otherwise one. The library is built for one level unless its builder chose another
+    /// number (`RTC_MAX_INSTANCE_LEVEL_COUNT`); the array has room for four.
     instances: [[u32; N]; 8],
-    /// All ones where a lane is a ray.
+    /// Flags of the lanes, all ones for a lane with a ray.
     pub valid: [c_int; N],
 }
 
-/// The place of `id` in a ray, in arrays of as many words as there are rays.
+/// Position of `id` in a ray, in arrays of as many words as there are rays.
 const ID: usize = 10;
-/// The place of `primitive` in a hit.
+/// Position of `primitive` in a hit.
 const PRIMITIVE: usize = 5;
 
 impl<const N: usize> Packet<N> {
-    /// A packet of up to N rays; the lanes that are left hold no ray.
+    /// Makes a packet of up to N rays; the remaining lanes hold no ray.
     pub fn new(rays: &[Ray]) -> Self {
-        // Lanes without a ray are valid numbers all the same.
+        // Lanes without a ray hold valid numbers as well.
         let ray =
             |lane: usize| rays.get(lane).copied().unwrap_or_else(|| Ray::new([0.0; 3], [0.0, 0.0, 1.0]));
         let lanes = |value: &dyn Fn(Ray) -> f32| std::array::from_fn(|lane| value(ray(lane)));
@@ -110,13 +111,14 @@ impl<const N: usize> Packet<N> {
         }
     }
 
-    /// Hit of a lane, after nearest hits were searched for.
+    /// Returns the hit of a lane after a search for nearest hits.
     pub fn hit(&self, lane: usize) -> Option<DeviceHit> {
         (self.geometry[lane] != NOTHING)
             .then(|| DeviceHit { t: self.far[lane], primitive: Some(self.primitive[lane]) })
     }
 
-    /// Hit of a lane without its t, after any hit was searched for: then its end is at minus infinity.
+    /// Returns the hit of a lane without its t after a search for any hit: the end of a ray that hit is minus
+    /// infinity.
     pub fn occlusion(&self, lane: usize) -> Option<DeviceHit> {
         (self.far[lane] == f32::NEG_INFINITY).then_some(DeviceHit { t: 0.0, primitive: None })
     }
@@ -124,8 +126,8 @@ impl<const N: usize> Packet<N> {
 
 /// Refuses the triangle that a ray excludes.
 unsafe extern "C" fn refuse_excluded(arguments: *const FilterArguments) {
-    // SAFETY: the library calls this with its arguments, which live until it returns: arrays of `count`
-    // flags, and packets of `count` rays and hits, each member of which is an array of `count` words.
+    // SAFETY: the library calls this function with its arguments, which live until it returns: arrays of
+    // `count` flags, and packets of `count` rays and hits, each member of which is an array of `count` words.
     unsafe {
         let FilterArguments { valid, ray, hit, count, .. } = *arguments;
         let count = count as usize;

@@ -14,7 +14,7 @@ fn what_is_no_library_is_missing_and_said_with_how_to_get_one() {
     }
 }
 
-/// Any other library will do: this test's C library.
+/// Checks that another library is unsuitable; this test uses the C library.
 #[cfg(target_os = "linux")]
 #[test]
 fn another_library_is_unsuitable() {
@@ -22,7 +22,7 @@ fn another_library_is_unsuitable() {
     assert!(matches!(error, EmbreeError::Unsuitable { .. }), "{error}");
 }
 
-/// Two sheets of a height field each, one above the other: positions and indices.
+/// Makes two sheets, each a height field, one above the other: positions and indices.
 fn sheets(cells: u32) -> (Vec<[f32; 3]>, Vec<u32>) {
     let (mut positions, mut indices) = (Vec::new(), Vec::new());
     for sheet in 0..2 {
@@ -51,8 +51,8 @@ fn hits_are_the_oracles_in_packets_of_every_width() {
     assert!([1, 4, 8, 16].contains(&embree.packet_width()));
     let (positions, indices) = sheets(12);
     let oracle = Oracle::new(&positions, &indices, None).expect("indices are in range");
-    // From above and from between the sheets, down, 1,001 of them so that the last packets are not full; some
-    // end early.
+    // The rays start above and between the sheets and go down. They are 1,001, so that the last packets are
+    // not full; some end early.
     let ray = |index: u32| {
         let [x, z] = [2_654_435_761_u32, 2_246_822_519]
             .map(|factor| (index.wrapping_mul(factor) >> 8) as f32 / 16_777_216.0);
@@ -63,7 +63,7 @@ fn hits_are_the_oracles_in_packets_of_every_width() {
     let truth = |rays: &[Ray]| -> Vec<_> {
         rays.iter().map(|ray| oracle.closest(&rasray_experiment::oracle_ray(ray))).collect()
     };
-    // Every third ray excludes what it would hit, and so hits what is behind.
+    // Every third ray excludes the triangle that it would hit, and so hits the one behind.
     let open = truth(&rays);
     for (ray, verdict) in rays.iter_mut().zip(open).step_by(3) {
         ray.exclude_primitive = verdict.outcome.hit().map_or(PRIMITIVE_NONE, |(primitive, _)| primitive);

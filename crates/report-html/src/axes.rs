@@ -1,8 +1,8 @@
-//! Layouts that the plots share; colours of text and grid come from the page's script.
+//! Axes that the plots share. The page's script sets the colours of text and grid.
 
 use serde_json::{Value, json};
 
-/// Decimal exponents of the smallest and the largest positive value.
+/// Returns the decimal exponents of the smallest and the largest positive value.
 fn exponents(values: impl Iterator<Item = f64>) -> Option<(f64, f64)> {
     let (low, high) = values
         .filter(|value| *value > 0.0 && value.is_finite())
@@ -11,11 +11,11 @@ fn exponents(values: impl Iterator<Item = f64>) -> Option<(f64, f64)> {
     (low <= high).then_some((low, high))
 }
 
-/// A logarithmic axis over whole decades around positive values.
+/// Makes a logarithmic axis over whole decades around the positive values.
 pub(super) fn decades(title: &str, values: impl Iterator<Item = f64>) -> Value {
     let (low, high) = exponents(values).map_or((-1.0, 0.0), |(low, high)| (low.floor(), high.ceil()));
     let high = high.max(low + 1.0);
-    // Labels stay apart on a phone.
+    // The step is great enough for labels to stay apart on a phone.
     let step = ((high - low) / 8.0).ceil();
     json!({
         "type": "log", "title": {"text": title}, "range": [low - 0.15, high + 0.15],
@@ -23,8 +23,8 @@ pub(super) fn decades(title: &str, values: impl Iterator<Item = f64>) -> Value {
     })
 }
 
-/// A logarithmic axis that ends where the values do, with labels at powers of ten, and at 2 and 5 between
-/// them where the powers are few.
+/// Makes a logarithmic axis that ends where the values end, with labels at powers of ten, and at 2 and 5
+/// between them where there are few powers.
 pub(super) fn close_log(title: &str, values: impl Iterator<Item = f64>) -> Value {
     let (low, high) = exponents(values).map_or((-0.2, 1.2), |(low, high)| (low - 0.2, high + 0.2));
     let mut axis = json!({
@@ -36,7 +36,7 @@ pub(super) fn close_log(title: &str, values: impl Iterator<Item = f64>) -> Value
     } else if high - low > 1.3 {
         axis["dtick"] = json!("D2");
     } else {
-        // So few that each is written out: a 5 alone would not say of which power.
+        // There are so few labels that each is written out: a 5 alone does not tell its power of ten.
         let ticks = STEPS.map(|steps| {
             let powers = (low.floor() as i32..=high.floor() as i32).map(|power| 10_f64.powi(power));
             let ticks = powers.flat_map(|power| steps.iter().map(move |step| step * power));
@@ -48,25 +48,27 @@ pub(super) fn close_log(title: &str, values: impl Iterator<Item = f64>) -> Value
     axis
 }
 
-/// Labels that make an axis a scale: two say nothing of what lies between them on a logarithmic one.
+/// Least number of labels that make a logarithmic axis readable: two labels do not tell the values between
+/// them.
 const LEAST_TICKS: usize = 3;
 
-/// Labels of a short logarithmic axis, in parts of a power of ten: the coarser where they are enough.
+/// Labels of a short logarithmic axis, in parts of a power of ten. The coarser set is used where it has
+/// enough labels.
 const STEPS: [&[f64]; 2] = [&[1.0, 2.0, 5.0], &[1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0]];
 
-/// A linear axis from zero.
+/// Makes a linear axis from zero.
 pub(super) fn linear(title: &str) -> Value {
     json!({"title": {"text": title}, "rangemode": "tozero", "automargin": true})
 }
 
-/// A linear axis with a margin below zero, so that symbols at zero are whole.
+/// Makes a linear axis with a margin below zero, so that symbols at zero are drawn whole.
 pub(super) fn around_zero(title: &str, values: impl Iterator<Item = f64>) -> Value {
     let most = values.filter(|value| value.is_finite()).fold(0.0, f64::max);
     let most = if most > 0.0 { most } else { 1.0 };
     json!({"title": {"text": title}, "range": [-0.06 * most, 1.1 * most], "automargin": true})
 }
 
-/// The values at the two ends of an axis that has a range.
+/// Returns the values at the two ends of an axis that has a range.
 pub(super) fn ends(axis: &Value) -> Option<[f64; 2]> {
     let end = |index: usize| {
         let value = axis["range"][index].as_f64()?;
@@ -75,7 +77,7 @@ pub(super) fn ends(axis: &Value) -> Option<[f64; 2]> {
     Some([end(0)?, end(1)?])
 }
 
-/// Names in this order, the first at the top.
+/// Makes an axis of names in this order, the first at the top.
 pub(super) fn names(names: impl Iterator<Item = String>) -> Value {
     json!({
         "autorange": "reversed", "automargin": true, "type": "category",
@@ -102,7 +104,7 @@ mod tests {
             axis["tickvals"],
             json!([2500.0, 3000.0, 4000.0, 5000.0, 6000.0, 7000.0, 8000.0, 9000.0, 10000.0, 15000.0])
         );
-        // A single run, wherever it stands.
+        // A single run fits on the axis, whatever its value.
         for tenth in 0..30 {
             let axis = close_log("t", [10_f64.powf(f64::from(tenth) / 10.0)].into_iter());
             let count = axis["tickvals"].as_array().map_or(0, Vec::len);

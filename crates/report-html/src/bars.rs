@@ -8,17 +8,17 @@ use rasray_report::{Memory, Pass, PassOf, Report, Run};
 use rasray_report::{bytes, grouped};
 use serde_json::{Value, json};
 
-/// Parts that get a colour of their own; the rest share the last one.
+/// Largest number of parts that get a colour of their own; all other parts share the last colour.
 const COLOURED: usize = 7;
 
-/// Bytes of a mebibyte.
+/// Number of bytes in a mebibyte.
 const MEBIBYTE: f64 = 1_048_576.0;
 
-/// A part of a build that is the host's, hatched so that it is told from passes of the device.
+/// Part of a build that the host does, hatched to tell it from passes of the device.
 struct HostPart {
     name: &'static str,
     colour: &'static str,
-    /// A pattern's name in the plots' library.
+    /// Name of the hatching pattern in the plots' library.
     pattern: &'static str,
 }
 
@@ -27,17 +27,17 @@ const HOST_PARTS: [HostPart; 2] = [
     HostPart { name: Pass::WAITING, colour: "#a9b2bc", pattern: "." },
 ];
 
-/// A run and the parts of its bar.
+/// Bar of a run: the run and its parts.
 type Bar<'a> = (&'a Run, Vec<Part<'a>>);
 
-/// A part of a run's bar.
+/// Part of a run's bar.
 struct Part<'a> {
     name: &'a str,
     size: f64,
     words: String,
 }
 
-/// Milliseconds of a pass in the figure that it is a part of.
+/// Returns the milliseconds of a pass as its share of the figure.
 fn share(pass: &Pass) -> f64 {
     pass.ms_share.unwrap_or(pass.ms_median)
 }
@@ -67,7 +67,8 @@ fn memory_parts(memory: &Memory) -> Vec<Part<'_>> {
         .collect()
 }
 
-/// Names of all parts, the largest in any run first, so that a part has one colour in all plots of its kind.
+/// Returns the names of all parts, ordered by their largest size in any run, so that a part has one colour in
+/// all plots of its kind.
 fn ranked<'a>(parts: impl Iterator<Item = Part<'a>>) -> Vec<&'a str> {
     let mut sizes: Vec<(&str, f64)> = Vec::new();
     for part in parts {
@@ -80,28 +81,28 @@ fn ranked<'a>(parts: impl Iterator<Item = Part<'a>>) -> Vec<&'a str> {
     sizes.into_iter().map(|(name, _)| name).collect()
 }
 
-/// A run's name on two lines, so that names leave space for bars on a phone.
+/// Returns a run's name on two lines, which leaves space for bars on a phone.
 fn bar_name(run: &Run) -> String {
     let rest = [Some(&run.preset), run.variant.as_ref()];
     let rest = rest.into_iter().flatten().map(|word| plot_text(word)).collect::<Vec<_>>();
     format!("{}<br>{}", plot_text(&run.system), rest.join(" "))
 }
 
-/// Bars of one part, of each run that has it.
+/// Collects the bars of one part, from each run that has the part.
 fn bars_of(runs: &[Bar<'_>], name: &str) -> Vec<(String, f64, String)> {
     let found = runs.iter().filter_map(|(run, parts)| {
-        // Where passes overlap on a device, waiting is less than nothing: a bar shows no such part.
+        // Where passes overlap on a device, the time of waiting is negative; such a part is not drawn.
         let part = parts.iter().find(|part| part.name == name && part.size >= 0.0)?;
         Some((bar_name(run), part.size, part.words.clone()))
     });
     found.collect()
 }
 
-/// One trace a part: the coloured ones, one of all others, then those of the host.
+/// Makes one trace per part: the coloured parts, one trace of all other parts, then the parts of the host.
 fn stacked(runs: &[Bar<'_>], ranking: &[&str]) -> Vec<Value> {
     let (host, ranking): (Vec<&str>, Vec<&str>) =
         ranking.iter().copied().partition(|name| HOST_PARTS.iter().any(|part| part.name == *name));
-    // A single part beyond the colours is not worth a group.
+    // A single part beyond the colours is drawn by itself, since a group of one is not worth it.
     let coloured = if ranking.len() <= COLOURED + 1 { ranking.len() } else { COLOURED };
     let (own, others) = ranking.split_at(coloured);
     let mut traces = Vec::new();
@@ -150,12 +151,12 @@ fn bar_height(runs: usize, traces: usize) -> usize {
     90 + 44 * runs + 22 * traces
 }
 
-/// A figure of runs, and the passes that add up to it.
+/// Figure of a run, and the passes that add up to it.
 struct Figure {
     of: Option<PassOf>,
-    /// In titles, behind the rays.
+    /// Name in titles, after the rays.
     name: &'static str,
-    /// The figure of a run, where it was measured.
+    /// Function that returns the figure of a run, where it was measured.
     value: fn(&Run) -> Option<f64>,
 }
 
@@ -167,14 +168,14 @@ const FIGURES: [Figure; 5] = [
     Figure { of: None, name: "passes", value: |_| None },
 ];
 
-/// Workloads whose runs took the same time in every part, and the runs of the first of them.
+/// Workloads whose runs took equal times in every part, and the runs of the first of these workloads.
 struct SharedTimes<'a> {
     workloads: Vec<String>,
     runs: Vec<Bar<'a>>,
 }
 
-/// Bars of the passes of each run, one plot a figure that they add up to: those of builds once for all rays
-/// that were traced through them.
+/// Makes the bars of the passes of each run, one plot per figure that the passes add up to. Builds are shown
+/// once for all sets of rays that were traced through them.
 pub(super) fn passes(report: &Report) -> Option<Section> {
     let mut plots = Vec::new();
     for figure in FIGURES {
@@ -211,7 +212,7 @@ pub(super) fn passes(report: &Report) -> Option<Section> {
     )
 }
 
-/// Parts in shares of their bar, so that the parts of short bars have colours too.
+/// Returns the parts as shares of their bar, so that the parts of short bars are coloured too.
 fn in_shares(run: &Run, of: Option<PassOf>) -> Vec<Part<'_>> {
     let passes = || run.passes.iter().filter(|pass| pass.of == of);
     let whole: f64 = passes().map(share).sum();
@@ -232,7 +233,7 @@ fn pass_plot(position: usize, figure: &Figure, one: &SharedTimes<'_>, ranking: &
     let SharedTimes { workloads, runs } = one;
     let workloads = workloads.join(", ");
     let data = stacked(runs, ranking);
-    // The figure of the summary stands at the end of each bar.
+    // The figure of the summary is written at the end of each bar.
     let ends = runs.iter().map(|(run, parts)| {
         let length: f64 = parts.iter().map(|part| part.size.max(0.0)).sum();
         let value = (figure.value)(run).unwrap_or(length);
@@ -260,7 +261,7 @@ fn pass_plot(position: usize, figure: &Figure, one: &SharedTimes<'_>, ranking: &
     }
 }
 
-/// Each bar's name and length in words.
+/// Describes each bar by its name and its length.
 fn totals(runs: &[Bar<'_>], words: impl Fn(f64) -> String) -> String {
     let one = |(run, parts): &Bar<'_>| {
         format!("{} {}", run.contestant(), words(parts.iter().map(|part| part.size).sum()))
@@ -268,16 +269,16 @@ fn totals(runs: &[Bar<'_>], words: impl Fn(f64) -> String) -> String {
     runs.iter().map(one).collect::<Vec<_>>().join(", ")
 }
 
-/// Workloads whose runs agree in every byte, and the runs of the first of them.
+/// Workloads whose runs agree in every byte, and the runs of the first of these workloads.
 struct SharedMemory<'a> {
     workloads: Vec<String>,
     runs: Vec<(&'a Run, &'a Memory)>,
 }
 
-/// A number of bytes that is a mark on a bar, not a part of it.
+/// Number of bytes that is drawn as a mark on a bar, and is not a part of the bar.
 struct Mark {
     name: &'static str,
-    /// A marker's name in the plots' library.
+    /// Name of the marker in the plots' library.
     symbol: &'static str,
     value: fn(&Memory) -> Option<u64>,
 }
@@ -287,7 +288,8 @@ const MARKS: [Mark; 2] = [
     Mark { name: "capacity", symbol: "line-ns-open", value: |memory| memory.capacity_bytes },
 ];
 
-/// Bytes of the parts of each structure, with what the formula of its page says.
+/// Makes the bars of the bytes of each structure's parts, marked with the bytes that the formula of the
+/// system's page gives.
 pub(super) fn memory(report: &Report) -> Option<Section> {
     let parts = report.runs.iter().filter_map(|run| run.memory.as_ref()).flat_map(memory_parts);
     let ranking = ranked(parts);
@@ -306,7 +308,7 @@ pub(super) fn memory(report: &Report) -> Option<Section> {
         if own.is_empty() {
             continue;
         }
-        // Ray sets share the structure that was built once, and then a plot.
+        // Ray sets share the structure that was built once, and then share a plot.
         match shown.iter_mut().find(|other| same(&other.runs)) {
             Some(other) => other.workloads.push(workload),
             None => shown.push(SharedMemory { workloads: vec![workload], runs: own }),
@@ -360,7 +362,7 @@ fn memory_plot(position: usize, workload: &str, own: &[(&Run, &Memory)], ranking
             "x": found.iter().map(|one| one.1 as f64 / MEBIBYTE).collect::<Vec<_>>(),
             "hovertext": found.iter().map(|one| format!("{name}<br>{}", bytes(one.1))).collect::<Vec<_>>(),
             "hoverinfo": "text",
-            // The script gives these marks the colour of text.
+            // The page's script gives these marks the colour of text.
             "marker": {"symbol": symbol, "size": 13, "line": {"width": 2}}, "meta": "text-colour",
         }));
     }

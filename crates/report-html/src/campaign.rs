@@ -1,4 +1,4 @@
-//! A campaign as one page: of each experiment plots, then a table.
+//! Page of a campaign: for each experiment plots, then a table.
 
 use super::campaign_plots::plots;
 use super::document::{Head, device_words, document};
@@ -7,7 +7,7 @@ use super::section::Section;
 use super::sortable::{Heading, table};
 use rasray_report::{Campaign, Experiment, grouped};
 
-/// The page as UTF-8 text.
+/// Writes the page as UTF-8 text.
 pub fn campaign_page(campaign: &Campaign) -> Vec<u8> {
     let rows: usize = campaign.experiments.iter().map(|experiment| experiment.rows.len()).sum();
     let facts = vec![
@@ -50,7 +50,7 @@ fn part_table(body: &mut Markup, experiment: &Experiment) {
                     cells.leaf("td", &[], row.setting(name));
                 }
                 for column in &columns {
-                    // Number that a click on the heading sorts by; null stays at the end.
+                    // A click on the heading sorts by this number; null stays at the end.
                     let value = row.results.get(column.name).map_or("null".to_owned(), f64::to_string);
                     let attributes = [("class", "number"), ("data-value", value.as_str())];
                     cells.leaf("td", &attributes, column.of(row));

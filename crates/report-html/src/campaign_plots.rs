@@ -8,19 +8,20 @@ use rasray_report::{Experiment, Row, number};
 use serde_json::{Value, json};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Different values from which on a setting of numbers is a parameter, with curves over it.
+/// Least number of different values at which a setting of numbers counts as a parameter with curves over it.
 const LEAST_POINTS: usize = 3;
 
-/// Greatest over least value from which on the axis of a parameter is logarithmic.
+/// Ratio of the greatest to the least value at which the axis of a parameter becomes logarithmic.
 const LOG_FROM: f64 = 8.0;
 
-/// A result that is drawn.
+/// Result that is drawn.
 struct Measure {
     name: &'static str,
     title: &'static str,
     /// Label of the axis.
     words: &'static str,
-    /// Times that are repeated: their spread in the run, and what makes a time of the result.
+    /// Name of the repeated times in the spread of a run, and the function that converts a time into the
+    /// result.
     spread: Option<&'static str>,
     is_error: bool,
 }
@@ -60,11 +61,11 @@ const WRONG: Measure = Measure {
 const FLIP: Measure =
     Measure { name: "image.flip_mean", title: "FLIP", words: "FLIP, mean", spread: None, is_error: true };
 
-/// Name of a row, from the settings in which rows differ.
+/// Name of a row in a plot, made of the settings in which rows differ.
 struct Label {
-    /// System, preset, options.
+    /// Name of the contestant: system, preset, options.
     contestant: String,
-    /// Scene, rays or image.
+    /// Name of the workload: scene, and rays or image.
     workload: String,
 }
 
@@ -88,7 +89,7 @@ impl Label {
     }
 }
 
-/// The values of rows that differ in nothing but the seed.
+/// Point of a plot: the values of rows that differ only in the seed.
 struct Point {
     middle: f64,
     low: f64,
@@ -102,7 +103,7 @@ impl Point {
         values.sort_by(f64::total_cmp);
         let (low, high) = (*values.first()?, *values.last()?);
         let middle = 0.5 * (values[(values.len() - 1) / 2] + values[values.len() / 2]);
-        // The spread of repetitions, where there is one seed: half of them lie between the quartiles.
+        // With one seed the error bar is the spread of repetitions: half of them lie between the quartiles.
         if let ([row], Some(name)) = (rows, measure.spread)
             && let Some(spread) = row.run().spread.get(name)
         {
@@ -115,7 +116,7 @@ impl Point {
     }
 }
 
-/// All plots of an experiment, whose anchors begin with `anchor`.
+/// Makes all plots of an experiment, whose anchors begin with `anchor`.
 pub(super) fn plots(anchor: &str, experiment: &Experiment) -> Vec<Plot> {
     let mut plots = Vec::new();
     plots.extend(
@@ -126,14 +127,14 @@ pub(super) fn plots(anchor: &str, experiment: &Experiment) -> Vec<Plot> {
         let measures = [SPEED, IMAGE, BUILD, WRONG, FLIP];
         plots.extend(measures.iter().filter_map(|measure| curves(anchor, experiment, parameter, measure)));
     }
-    // Curves say what bars of each value would.
+    // Bars of each value would repeat the curves.
     if parameters.is_empty() {
         plots.extend([SPEED, IMAGE, BUILD].iter().filter_map(|measure| bars(anchor, experiment, measure)));
     }
     plots
 }
 
-/// Settings with several numbers.
+/// Returns the settings with several numbers as values.
 fn parameters(experiment: &Experiment) -> Vec<&str> {
     let is_parameter = |name: &&str| {
         let values: BTreeSet<&str> =
@@ -145,10 +146,10 @@ fn parameters(experiment: &Experiment) -> Vec<&str> {
     experiment.varied().into_iter().filter(is_parameter).collect()
 }
 
-/// Values under names, in order of appearance.
+/// Values with names, in order of appearance.
 type Named<T> = Vec<(String, T)>;
 
-/// Rows with the result, by two names of theirs.
+/// Groups the rows that have the result by two names.
 fn grouped<'a>(
     experiment: &'a Experiment,
     measure: &Measure,
@@ -163,7 +164,7 @@ fn grouped<'a>(
     groups
 }
 
-/// Value under a name, made where there is none.
+/// Returns the value of a name, which is inserted if absent.
 fn place_of<T: Default>(named: &mut Named<T>, name: String) -> &mut T {
     let place = named.iter().position(|(other, _)| *other == name).unwrap_or_else(|| {
         named.push((name, T::default()));
@@ -277,7 +278,7 @@ fn scatter(anchor: &str, experiment: &Experiment, speed: &Measure, error: &Measu
         grouped(experiment, speed, names)
     };
     let mut groups = groups_by(|label| (label.contestant, label.workload));
-    // A single contestant is told apart by its workloads.
+    // Workloads tell the points of a single contestant apart.
     if groups.len() == 1 {
         groups = groups_by(|label| (label.workload, label.contestant));
     }
@@ -291,7 +292,7 @@ fn scatter(anchor: &str, experiment: &Experiment, speed: &Measure, error: &Measu
     if points.len() < 2 {
         return None;
     }
-    // For shares of rays, the floor is what so many rays resolve; zero is drawn there.
+    // For shares of rays, the floor is the smallest share that so many rays resolve; zero is drawn there.
     let compared = |row: &Row| row.run().accuracy.as_ref().map(|accuracy| accuracy.rays - accuracy.ambiguous);
     let floor = match error.name {
         "error_share" => {

@@ -1,12 +1,12 @@
-//! Curves that lie on one another, drawn so that each is seen.
+//! Curves that coincide, drawn so that each is visible.
 
-/// The height at each place, in shares of the axis; absent where a curve has none.
+/// Heights of a curve at each place, in shares of the axis; absent where the curve has no height.
 pub(super) type Curve = Vec<Option<f64>>;
 
-/// Shares of the axis up to which heights are one line to the eye.
+/// Largest difference, in shares of the axis, at which heights look like one line.
 const CLOSE: f64 = 0.015;
 
-/// Most that a line is widened for others that lie on it.
+/// Largest number of curves for which a line below them is widened.
 const MOST: usize = 4;
 
 fn coincide(a: &Curve, b: &Curve) -> bool {
@@ -17,15 +17,15 @@ fn coincide(a: &Curve, b: &Curve) -> bool {
     a.len() == b.len() && a.iter().zip(b).all(close)
 }
 
-/// Number of the curves drawn later that lie on each: it is drawn as much wider, so that it is seen on both
-/// sides of them.
+/// Returns for each curve the number of later curves that cover it. A covered curve is drawn wider by that
+/// number, so that it is visible on both sides of the later ones.
 pub(super) fn covered(curves: &[Curve]) -> Vec<usize> {
     let later =
         |index: usize| curves[index + 1..].iter().filter(|other| coincide(&curves[index], other)).count();
     (0..curves.len()).map(|index| later(index).min(MOST)).collect()
 }
 
-/// A sentence for each group of curves that coincide, by their names; empty where none do.
+/// Writes a sentence for each group of curves that coincide, by their names; empty if no curves coincide.
 pub(super) fn sentence(curves: &[Curve], names: &[String]) -> String {
     let mut told: Vec<usize> = Vec::new();
     let mut sentences = Vec::new();

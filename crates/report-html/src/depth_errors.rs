@@ -1,4 +1,4 @@
-//! Distribution of |dt|/t: histograms, and percentiles next to each other.
+//! Distribution of |dt|/t: histograms and percentiles.
 
 use super::axes;
 use super::coincide::{Curve, covered, sentence};
@@ -9,12 +9,12 @@ use rasray_report::figures::{DepthErrors, Figures};
 use rasray_report::{Accuracy, Report};
 use serde_json::{Value, json};
 
-/// |dt|/t where bin `index` begins.
+/// Returns |dt|/t at the beginning of bin `index`.
 fn edge(index: usize) -> f64 {
     10_f64.powf(DepthErrors::LOW + DepthErrors::WIDTH * index as f64)
 }
 
-/// The first bin with a hit in any histogram, and the one after the last.
+/// Returns the first bin with a hit in any histogram, and the bin after the last.
 fn used<'a>(histograms: impl Iterator<Item = &'a DepthErrors> + Clone) -> Option<(usize, usize)> {
     let filled = |histogram: &'a DepthErrors| {
         histogram.bins.iter().enumerate().filter(|(_, count)| **count > 0).map(|(index, _)| index)
@@ -24,12 +24,12 @@ fn used<'a>(histograms: impl Iterator<Item = &'a DepthErrors> + Clone) -> Option
     Some((first, last + 1))
 }
 
-/// All hits of a histogram.
+/// Returns the number of hits in a histogram.
 fn total(histogram: &DepthErrors) -> u64 {
     histogram.zero + histogram.bins.iter().sum::<u64>()
 }
 
-/// Histograms, one plot a workload and one line a run.
+/// Makes the histograms, one plot per workload and one line per run.
 pub(super) fn histograms(report: &Report, figures: &Figures) -> Option<Section> {
     let mut plots = Vec::new();
     for (position, (workload, indices)) in by_workload(&report.runs).into_iter().enumerate() {
@@ -66,7 +66,7 @@ fn histogram_plot(
     exact: usize,
 ) -> Plot {
     let most = own.iter().map(|one| total(one)).max().unwrap_or(1) as f64;
-    // Empty bins go below the axis, so that lines fall out of the plot instead of ending in it.
+    // Empty bins are placed below the axis, so that lines leave the plot instead of ending in it.
     let below = 0.01 / most;
     let mut largest = 0.0_f64;
     let mut data = Vec::new();
@@ -122,7 +122,8 @@ fn histogram_plot(
     }
 }
 
-/// Widens lines that others lie on, and says which; `decades` is what the axis spans, heights are exponents.
+/// Widens lines that others cover, and describes in words which lines coincide. `decades` is the span of the
+/// axis; heights are exponents.
 fn spread_apart(data: &mut [Value], curves: Vec<Curve>, names: &[String], decades: f64) -> String {
     let shares = |curve: Curve| curve.into_iter().map(|height| height.map(|one| one / decades)).collect();
     let curves: Vec<Curve> = curves.into_iter().map(shares).collect();
@@ -140,7 +141,7 @@ fn spread_apart(data: &mut [Value], curves: Vec<Curve>, names: &[String], decade
 /// Names of the percentiles, from left to right.
 const PERCENTILES: [&str; 5] = ["median", "90 %", "99 %", "99.9 %", "largest"];
 
-/// Names and values of the percentiles that were measured.
+/// Returns the names and values of the percentiles that were measured.
 fn measured(accuracy: &Accuracy) -> Vec<(&'static str, f64)> {
     let values = [
         accuracy.dt_rel_p50,
@@ -156,7 +157,7 @@ fn measured(accuracy: &Accuracy) -> Vec<(&'static str, f64)> {
         .collect()
 }
 
-/// Percentiles, one plot a workload and one line a run.
+/// Makes the plots of percentiles, one plot per workload and one line per run.
 pub(super) fn percentiles(report: &Report) -> Option<Section> {
     let mut plots = Vec::new();
     for (position, (workload, indices)) in by_workload(&report.runs).into_iter().enumerate() {

@@ -1,4 +1,4 @@
-//! Everything a run says, in parts that open on demand: options, paths and every number of the JSON.
+//! Details of each run in parts that open on demand: options, paths and every number of the JSON.
 
 use super::markup::Markup;
 use super::names::workload;
@@ -7,16 +7,16 @@ use crate::error::{HtmlError, misfit};
 use rasray_report::Report;
 use serde_json::Value;
 
-/// Fields that are tables of their own, before all others.
+/// Fields that have tables of their own, before all other fields.
 const OWN_TABLES: [(&str, &str); 2] = [("options", "Options"), ("paths", "What the device decided")];
 
-/// Fields that stand in the summary or in a plot value by value.
+/// Fields that are left out, because the summary or a plot shows each of their values.
 const LEFT_OUT: [&str; 3] = ["system", "preset", "passes"];
 
-/// One part a run.
+/// Makes one part per run.
 ///
 /// # Errors
-/// A run that cannot be written as JSON.
+/// A run cannot be written as JSON.
 pub(super) fn section(report: &Report) -> Result<Option<Section>, HtmlError> {
     if report.runs.is_empty() {
         return Ok(None);
@@ -51,7 +51,7 @@ pub(super) fn section(report: &Report) -> Result<Option<Section>, HtmlError> {
     Ok(Some(Section::new("runs", "Runs in full", body)))
 }
 
-/// Rows of names with dots and values in words.
+/// Flattens a value into rows of a dotted name and the value in words.
 fn flatten(value: &Value, name: String, rows: &mut Vec<[String; 2]>) {
     match value {
         Value::Null => {}

@@ -1,4 +1,4 @@
-//! The frame of the page: head, title, device, navigation, parts, notices and scripts.
+//! Frame of the page: head, title, device, navigation, parts, notices and scripts.
 
 use super::markup::Markup;
 use super::section::Section;
@@ -6,23 +6,23 @@ use rasray_report::{Device, Report, bytes, grouped};
 use serde_json::Value;
 use std::borrow::Cow;
 
-/// Forbids every load from anywhere else, should a part of the page ever try.
+/// Content security policy that forbids every load from elsewhere, even if a part of the page tries one.
 const POLICY: &str =
     "default-src 'none'; img-src data: blob:; style-src 'unsafe-inline'; script-src 'unsafe-inline'";
 
 /// Head of a page.
 pub(super) struct Head<'a> {
-    /// The command whose page it is.
+    /// Command that made the page.
     pub command: &'static str,
-    /// Its subject.
+    /// Subject of the page.
     pub subject: &'a str,
-    /// Names and what is to be known by them.
+    /// Facts about the page: names and their values.
     pub facts: Vec<(&'static str, Cow<'a, str>)>,
-    /// Device that it ran on.
+    /// Device that the runs ran on.
     pub device: &'a Device,
 }
 
-/// The page of a report.
+/// Writes the page of a report.
 pub(super) fn of_report(report: &Report, sections: &[Section]) -> String {
     let head = Head {
         command: "rasray compare",
@@ -33,7 +33,7 @@ pub(super) fn of_report(report: &Report, sections: &[Section]) -> String {
     document(&head, sections)
 }
 
-/// The whole page.
+/// Writes a whole page.
 pub(super) fn document(head: &Head<'_>, sections: &[Section]) -> String {
     let mut page = Markup::default();
     page.fixed("<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n");
@@ -42,7 +42,7 @@ pub(super) fn document(head: &Head<'_>, sections: &[Section]) -> String {
     page.fixed("<meta name=\"color-scheme\" content=\"light dark\">\n");
     page.leaf("title", &[], format_args!("{}: {}", head.command, head.subject));
     page.fixed("\n<style>\n").fixed(include_str!("page.css")).fixed("</style>\n");
-    // Before anything is laid out: parts that need the script are hidden where none runs.
+    // This script runs before the layout, because parts that need the script are hidden where no script runs.
     page.script("document.documentElement.classList.add('scripted');");
     page.fixed("</head>\n<body>\n");
     header(&mut page, head);
@@ -96,7 +96,7 @@ fn facts(report: &Report) -> Vec<(&'static str, Cow<'_, str>)> {
     facts
 }
 
-/// A device and its driver.
+/// Describes a device and its driver.
 pub(super) fn device_words(device: &Device) -> String {
     let kind = if device.software { ", software" } else { "" };
     format!("{} ({}{kind})", device.name, device.driver)
@@ -138,15 +138,15 @@ fn footer(page: &mut Markup) {
     page.fixed("</pre></details>\n</footer>\n");
 }
 
-/// plotly.js as npm's plotly.js-basic-dist-min 3.0.1 has it: scatter and bar plots, which are all that pages
-/// have.
+/// Source of plotly.js, as in npm's plotly.js-basic-dist-min 3.0.1: only scatter and bar plots, the kinds
+/// that pages use.
 const PLOT_LIBRARY: &str = include_str!("plotly-basic.min.js");
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    /// Nothing in the library ends the script that it stands in.
+    /// Checks that nothing in the library ends the script element that holds it.
     #[test]
     fn the_library_can_stand_in_a_page() {
         assert!(["</script", "<script", "<!--"].iter().all(|mark| !PLOT_LIBRARY.contains(mark)));

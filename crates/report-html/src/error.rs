@@ -1,4 +1,4 @@
-/// Figures and report contradict each other, which no input of a user can cause.
+/// Contradiction between figures and report, which no input of a user can cause.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{0}")]
 pub struct HtmlError(String);

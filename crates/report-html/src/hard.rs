@@ -1,4 +1,4 @@
-//! Hard cases: what each demands and which run passed.
+//! Hard cases: the demand of each case, and the runs that passed.
 
 use super::markup::Markup;
 use super::names::{MOST_HARD_CASES, hard_cases};
@@ -7,7 +7,7 @@ use super::sortable::{Heading, table};
 use rasray_report::grouped;
 use rasray_report::{HardRecord, Report, Run};
 
-/// The verdict in words, and the name of its look.
+/// Returns the verdict in words, and the name of its style.
 fn verdict(hard: &HardRecord) -> (&'static str, &'static str) {
     match hard.met {
         Some(true) => ("met", "verdict met"),
@@ -16,7 +16,8 @@ fn verdict(hard: &HardRecord) -> (&'static str, &'static str) {
     }
 }
 
-/// Verdicts per contestant, then each with its reason; absent unless hard cases were traced.
+/// Makes the verdicts per contestant, then each verdict with its reason; absent unless hard cases were
+/// traced.
 pub(super) fn section(report: &Report) -> Option<Section> {
     let runs: Vec<(&Run, &HardRecord)> =
         report.runs.iter().filter_map(|run| Some((run, run.hard.as_ref()?))).collect();
@@ -38,7 +39,7 @@ pub(super) fn section(report: &Report) -> Option<Section> {
     Some(Section::new("hard-cases", "Hard cases", body))
 }
 
-/// Number of cases that each contestant passed.
+/// Writes the number of cases that each contestant passed.
 fn scores(body: &mut Markup, runs: &[(&Run, &HardRecord)]) {
     let mut names: Vec<String> = Vec::new();
     for (run, _) in runs {

@@ -1,4 +1,4 @@
-//! Images against the reference: a slider between any two, all of them side by side, maps of FLIP.
+//! Images against the reference: a slider between any two, a gallery of all images, and maps of FLIP.
 
 use super::markup::Markup;
 use super::picture::{address, ramp};
@@ -9,10 +9,10 @@ use rasray_report::Report;
 use rasray_report::colour_scale::{MAGMA, colour};
 use rasray_report::figures::{Figures, Images, SystemImage};
 
-/// The images; absent unless images were compared.
+/// Makes the section of images; absent unless images were compared.
 ///
 /// # Errors
-/// An image or a map that lacks pixels.
+/// An image or a map lacks pixels.
 pub(super) fn section(report: &Report, figures: &Figures) -> Result<Option<Section>, HtmlError> {
     let Some(images) = &figures.images else { return Ok(None) };
     let mut body = Markup::default();
@@ -48,8 +48,8 @@ fn beauty(images: &Images, pixels: &[[f32; 3]]) -> Result<String, HtmlError> {
     address(images.width, images.height, &tone_map(pixels, 0.0))
 }
 
-/// Two images one over the other; the page's script takes them from the gallery, so that none is in the
-/// page twice.
+/// Writes the viewer of two images, one over the other. The page's script takes both from the gallery, so
+/// that no image is in the page twice.
 fn viewer(body: &mut Markup, report: &Report, images: &Images) {
     if images.systems.is_empty() {
         return;
@@ -90,7 +90,7 @@ fn picture(body: &mut Markup, images: &Images, (id, caption, alternative): (&str
     body.element("figure", &[], |figure| {
         let attributes =
             [("id", id), ("src", source), ("alt", alternative), ("width", &size[0]), ("height", &size[1])];
-        // Figures without a name are not looked up by anything.
+        // Images without a name need no id, since nothing looks them up.
         figure.empty("img", if id.is_empty() { &attributes[1..] } else { &attributes });
         figure.leaf("figcaption", &[], caption);
     });

@@ -35,14 +35,14 @@ use error::misfit;
 use rasray_report::Report;
 use rasray_report::figures::Figures;
 
-/// The page as UTF-8 text.
+/// Writes the page of a report as UTF-8 text.
 ///
 /// # Errors
-/// Figures that do not fit the report: a run that is not there, or a picture that lacks pixels.
+/// Figures do not fit the report: they belong to a run that is not there, or a picture lacks pixels.
 pub fn page(report: &Report, figures: &Figures) -> Result<Vec<u8>, HtmlError> {
     check(report, figures)?;
-    // Charts before tables: what they show is seen at once. Of many hard cases the verdicts are the summary,
-    // and a row per run is what to look up in.
+    // Charts stand before tables, because charts are understood at once. With many hard cases the verdicts
+    // are the summary, and the table with a row per run is for looking up.
     let (summary, hard) = (summary::section(report), hard::section(report));
     let many = names::hard_cases(&report.runs) > names::MOST_HARD_CASES;
     let [first, second] = if many { [hard, summary] } else { [summary, hard] };
@@ -73,7 +73,7 @@ fn check(report: &Report, figures: &Figures) -> Result<(), HtmlError> {
     }
 }
 
-/// Compiles the examples of the readme.
+/// Compiles the examples of the readme as documentation tests.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 struct Readme;

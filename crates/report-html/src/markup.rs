@@ -1,30 +1,30 @@
-//! HTML text in which everything that does not come from this program's source is escaped.
+//! Markup of HTML, in which all text that does not come from this program's source is escaped.
 
 use rasray_report::{escaped, json_escaped};
 use serde_json::Value;
 use std::fmt::{Display, Write};
 
-/// A growing piece of a page. Only `&'static str` enters it unchanged, so that no name of a scene, a
-/// device or a file can become markup.
+/// Growing piece of a page. Only `&'static str` is added unchanged, so that no name of a scene, a device or a
+/// file can become markup.
 #[derive(Debug, Default)]
 pub(super) struct Markup {
     text: String,
 }
 
 impl Markup {
-    /// Markup from this program's source, unchanged.
+    /// Adds markup from this program's source, unchanged.
     pub fn fixed(&mut self, markup: &'static str) -> &mut Self {
         self.text += markup;
         self
     }
 
-    /// Text from anywhere, escaped.
+    /// Adds text from any source, escaped.
     pub fn text(&mut self, text: impl Display) -> &mut Self {
         escape_into(&mut self.text, &text.to_string());
         self
     }
 
-    /// `<name attributes>content</name>`; attribute values are escaped.
+    /// Adds `<name attributes>content</name>`; attribute values are escaped.
     pub fn element(
         &mut self,
         name: &'static str,
@@ -37,7 +37,7 @@ impl Markup {
         self
     }
 
-    /// An element that holds nothing but text, escaped.
+    /// Adds an element that holds only text, escaped.
     pub fn leaf(
         &mut self,
         name: &'static str,
@@ -49,7 +49,7 @@ impl Markup {
         })
     }
 
-    /// `<name attributes>` without an end tag, such as `img`.
+    /// Adds `<name attributes>` without an end tag, such as `img`.
     pub fn empty(&mut self, name: &'static str, attributes: &[(&'static str, &str)]) -> &mut Self {
         _ = write!(self.text, "<{name}");
         for (key, value) in attributes {
@@ -61,11 +61,11 @@ impl Markup {
         self
     }
 
-    /// Data for scripts of the page, in an element that nothing executes.
+    /// Adds data for scripts of the page, in an element that is not executed.
     pub fn data(&mut self, id: &'static str, value: &Value) -> &mut Self {
         _ = write!(self.text, "<script type=\"application/json\" id=\"{id}\">");
-        // In JSON these characters stand only in strings, where this escape means the same; without
-        // them no end tag and no comment can begin.
+        // In JSON these characters occur only in strings, where the escape has the same meaning; without
+        // these characters no end tag and no comment can begin.
         for character in json_escaped(&value.to_string()).chars() {
             match character {
                 '<' => self.text += "\\u003c",
@@ -77,25 +77,25 @@ impl Markup {
         self.fixed("</script>\n")
     }
 
-    /// A script of this program.
+    /// Adds a script of this program.
     pub fn script(&mut self, source: &'static str) -> &mut Self {
         self.fixed("<script>\n").fixed(source).fixed("</script>\n")
     }
 
-    /// A script of a library that is compiled into this program.
+    /// Adds a script of a library that is compiled into this program.
     pub fn library(&mut self, source: &str) -> &mut Self {
         self.fixed("<script>\n");
         self.text += source;
         self.fixed("</script>\n")
     }
 
-    /// Another piece, which is escaped already.
+    /// Adds another piece of markup, which is escaped already.
     pub fn append(&mut self, other: &Markup) -> &mut Self {
         self.text += &other.text;
         self
     }
 
-    /// The text.
+    /// Returns the text of the markup.
     pub fn into_string(self) -> String {
         self.text
     }
@@ -114,7 +114,7 @@ fn escape_into(target: &mut String, text: &str) {
     }
 }
 
-/// Text for labels of plots, whose library reads a few tags in them.
+/// Escapes text for labels of plots, because the library interprets a few tags in labels.
 pub(super) fn plot_text(text: &str) -> String {
     escaped(text).replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
 }

@@ -1,16 +1,16 @@
-//! Names, groups and colours of runs, the same in every part of the page.
+//! Names, groups and colours of runs, which agree in every part of the page.
 
 use rasray_report::{Run, grouped};
 
-/// Colours that people with any colour vision tell apart, after Okabe and Ito; black is left out
-/// because it vanishes on a dark page, and yellow is last because it is faint on a light one.
+/// Colours that people with any colour vision can distinguish, after Okabe and Ito. Black is left out because
+/// it is invisible on a dark page, and yellow is last because it is faint on a light one.
 const COLOURS: [&str; 8] =
     ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9", "#e69f00", "#8c8c8c", "#d8c83a"];
 
-/// Hard cases up to which each gets plots of its own.
+/// Largest number of hard cases for which each gets plots of its own.
 pub(super) const MOST_HARD_CASES: usize = 4;
 
-/// Number of different hard cases that were traced.
+/// Returns the number of different hard cases that were traced.
 pub(super) fn hard_cases(runs: &[Run]) -> usize {
     let mut cases: Vec<&str> = runs.iter().filter_map(|run| Some(run.hard.as_ref()?.id.as_str())).collect();
     cases.sort_unstable();
@@ -18,7 +18,7 @@ pub(super) fn hard_cases(runs: &[Run]) -> usize {
     cases.len()
 }
 
-/// Workload of a run: a hard case, the name of a ray set, or the integrator of an image.
+/// Returns the workload of a run: a hard case, the name of a ray set, or the integrator of an image.
 pub(super) fn workload(run: &Run) -> String {
     if let Some(hard) = &run.hard {
         return format!("hard:{}", hard.id);
@@ -30,8 +30,8 @@ pub(super) fn workload(run: &Run) -> String {
     }
 }
 
-/// Positions of the runs that plots show, per workload, in order of appearance. Hard cases are left out
-/// where they are too many to plot.
+/// Returns the positions of the runs that plots show, per workload, in order of appearance. Hard cases are
+/// left out if there are too many to plot.
 pub(super) fn by_workload(runs: &[Run]) -> Vec<(String, Vec<usize>)> {
     let plotted = |run: &Run| run.hard.is_none() || hard_cases(runs) <= MOST_HARD_CASES;
     let mut groups: Vec<(String, Vec<usize>)> = Vec::new();
@@ -45,18 +45,18 @@ pub(super) fn by_workload(runs: &[Run]) -> Vec<(String, Vec<usize>)> {
     groups
 }
 
-/// Look of a run: one colour a system, one symbol and dash a preset.
+/// Look of a run in plots: one colour per system, one symbol and dash per preset.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Look {
-    /// `#rrggbb`.
+    /// Colour as `#rrggbb`.
     pub colour: &'static str,
-    /// A marker's name in the plots' library.
+    /// Name of the marker in the plots' library.
     pub symbol: &'static str,
-    /// A dash's name there.
+    /// Name of the dash in the plots' library.
     pub dash: &'static str,
 }
 
-/// The look of `run`, by the order in which systems and presets appear in `runs`.
+/// Returns the look of `run`, by the order in which systems and presets appear in `runs`.
 pub(super) fn look(runs: &[Run], run: &Run) -> Look {
     const SYMBOLS: [&str; 4] = ["circle", "square", "diamond", "cross"];
     const DASHES: [&str; 4] = ["solid", "dash", "dot", "dashdot"];
@@ -69,7 +69,7 @@ pub(super) fn look(runs: &[Run], run: &Run) -> Look {
     }
 }
 
-/// Number of different names before `wanted`.
+/// Returns the number of different names before `wanted`.
 fn position<'a>(names: impl Iterator<Item = &'a str>, wanted: &str) -> usize {
     let mut seen: Vec<&str> = Vec::new();
     for name in names.take_while(|name| *name != wanted) {
@@ -80,7 +80,8 @@ fn position<'a>(names: impl Iterator<Item = &'a str>, wanted: &str) -> usize {
     seen.len()
 }
 
-/// Milliseconds in words: long times need no fractions. A sum of none is -0 in Rust, and is 0 here.
+/// Writes milliseconds in words; long times have no fractions. A sum of no terms is -0 in Rust, and is
+/// written as 0 here.
 pub(super) fn milliseconds(value: f64) -> String {
     let value = value + 0.0;
     if value >= 1000.0 {
@@ -92,7 +93,7 @@ pub(super) fn milliseconds(value: f64) -> String {
     }
 }
 
-/// Colours for the parts of a bar; repeats after eight.
+/// Returns the colour of a part of a bar; colours repeat after eight.
 pub(super) fn part_colour(index: usize) -> &'static str {
     COLOURS[index % COLOURS.len()]
 }

@@ -1,24 +1,25 @@
-//! Runs that no other run beats in speed and in error at once.
+//! Pareto front: runs that no other run beats in both speed and error.
 
 /// Speed and error of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Point {
-    /// Any measure in which more is better.
+    /// Measure of speed; more is better.
     pub speed: f64,
-    /// Any measure in which less is better.
+    /// Measure of error; less is better.
     pub error: f64,
 }
 
-/// Positions of the points on the Pareto front, slowest first.
+/// Returns the positions of the points on the Pareto front, slowest first.
 ///
-/// A point is on the front unless another is at least as fast and at least as exact, and better in one
-/// of the two; so equal points stand there together. Points with a number that is not finite never do.
+/// A point is on the front unless another is at least as fast and at least as exact, and better in one of the
+/// two; hence equal points are on the front together. A point with a number that is not finite is never on
+/// the front.
 pub(super) fn front(points: &[Point]) -> Vec<usize> {
     let mut order: Vec<usize> = (0..points.len())
         .filter(|index| points[*index].speed.is_finite() && points[*index].error.is_finite())
         .collect();
-    // Fastest first and, among equally fast ones, the most exact first: a point can then only be beaten
-    // by one before it.
+    // The order is fastest first and, among equally fast points, most exact first: a point can then be beaten
+    // only by a point before it.
     order.sort_by(|a, b| {
         let (a, b) = (points[*a], points[*b]);
         b.speed.total_cmp(&a.speed).then(a.error.total_cmp(&b.error))
@@ -59,7 +60,7 @@ mod tests {
         assert!(front(&[]).is_empty());
     }
 
-    /// By the definition, for every pair.
+    /// Computes the front by its definition, for every pair of points.
     fn front_by_definition(all: &[Point]) -> Vec<usize> {
         let beats = |a: Point, b: Point| {
             a.speed >= b.speed && a.error <= b.error && (a.speed > b.speed || a.error < b.error)
@@ -69,7 +70,7 @@ mod tests {
 
     #[test]
     fn it_agrees_with_the_definition() {
-        // Few different values, so that ties are common.
+        // The values are few, so that ties are common.
         let mut state = 1_u32;
         let mut next = |range: u32| {
             state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
@@ -81,7 +82,8 @@ mod tests {
             let mut found = front(&all);
             found.sort_unstable();
             assert_eq!(found, front_by_definition(&all), "{all:?}");
-            // A point that beats every other is alone on the front: the answer depends on the input.
+            // The last point beats every other and is alone on the front, which shows that the answer depends
+            // on the input.
             all.push(Point { speed: 10.0, error: -1.0 });
             assert_eq!(front(&all), [all.len() - 1]);
         }

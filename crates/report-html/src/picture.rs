@@ -1,4 +1,4 @@
-//! Pictures inside the page: PNG as data.
+//! Pictures inside the page, as PNG in data addresses.
 
 use crate::error::{HtmlError, misfit};
 use base64::Engine;
@@ -7,10 +7,10 @@ use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::{ExtendedColorType, ImageEncoder};
 use rasray_report::colour_scale::{Scale, colour};
 
-/// A PNG as the address of an image: three bytes per pixel, rows from the top.
+/// Encodes a picture as PNG and returns it as a data address: three bytes per pixel, rows from the top.
 ///
 /// # Errors
-/// Not as many bytes as pixels need, or what the encoder says.
+/// The number of bytes is not that of the pixels, or the encoder fails.
 pub(super) fn address(width: u32, height: u32, rgb: &[u8]) -> Result<String, HtmlError> {
     if width == 0 || height == 0 || rgb.len() != 3 * width as usize * height as usize {
         return Err(misfit(format!("a picture of {width}x{height} has {} bytes", rgb.len())));
@@ -22,7 +22,7 @@ pub(super) fn address(width: u32, height: u32, rgb: &[u8]) -> Result<String, Htm
     Ok(format!("data:image/png;base64,{}", STANDARD.encode(png)))
 }
 
-/// The scale itself as a picture, for legends.
+/// Draws the scale itself as a picture, for legends.
 pub(super) fn ramp(scale: &Scale) -> Result<String, HtmlError> {
     let pixels: Vec<u8> = (0..256).flat_map(|step| colour(scale, f64::from(step) / 255.0)).collect();
     address(256, 1, &pixels)

@@ -1,29 +1,29 @@
-//! A part of the page with a heading, and the plots in it.
+//! Section of the page: a part with a heading, and its plots.
 
 use super::markup::Markup;
 use serde_json::{Value, json};
 use std::borrow::Cow;
 
-/// A part of the page. A part exists only where there is something to show.
+/// Part of the page, which exists only if there is something to show.
 #[derive(Debug)]
 pub(super) struct Section {
-    /// Its anchor.
+    /// Anchor of the part.
     pub id: Cow<'static, str>,
-    /// Its heading.
+    /// Heading of the part.
     pub title: Cow<'static, str>,
-    /// Its contents.
+    /// Contents of the part.
     pub body: Markup,
     /// Plots whose places are in `body`.
     pub plots: Vec<Plot>,
 }
 
 impl Section {
-    /// A part without plots.
+    /// Makes a part without plots.
     pub fn new(id: impl Into<Cow<'static, str>>, title: impl Into<Cow<'static, str>>, body: Markup) -> Self {
         Self { id: id.into(), title: title.into(), body, plots: Vec::new() }
     }
 
-    /// A part that explains its plots and then shows them; absent without plots.
+    /// Makes a part that explains its plots and then shows them; absent without plots.
     pub fn of_plots(
         id: &'static str,
         title: &'static str,
@@ -39,7 +39,7 @@ impl Section {
         Some(section)
     }
 
-    /// Adds plots below what it holds.
+    /// Adds plots below the contents.
     pub fn add(&mut self, plots: Vec<Plot>) {
         self.body.element("div", &[("class", "plots")], |body| {
             for plot in &plots {
@@ -50,22 +50,22 @@ impl Section {
     }
 }
 
-/// A plot: traces and layout in the words of plotly.js.
+/// Plot: traces and layout in the terms of plotly.js.
 #[derive(Clone, Debug)]
 pub(super) struct Plot {
-    /// Its anchor, unique in the page.
+    /// Anchor of the plot, unique in the page.
     pub id: String,
-    /// The line above it.
+    /// Title above the plot.
     pub title: String,
-    /// More about how it is drawn, or nothing.
+    /// Note on how the plot is drawn; may be empty.
     pub note: String,
-    /// Description in words, for those who cannot see it.
+    /// Description in words, for readers who cannot see the plot.
     pub description: String,
-    /// Pixels from top to bottom.
+    /// Height, pixels.
     pub height: usize,
-    /// Traces.
+    /// Traces of plotly.js.
     pub data: Vec<Value>,
-    /// Axes and lines.
+    /// Layout of plotly.js: axes and lines.
     pub layout: Value,
 }
 
@@ -91,7 +91,7 @@ impl Plot {
         body.fixed("\n");
     }
 
-    /// Value that the page's script draws.
+    /// Returns the value that the page's script draws.
     pub fn value(&self) -> Value {
         json!({"id": self.id, "data": self.data, "layout": self.layout})
     }

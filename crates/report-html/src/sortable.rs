@@ -1,30 +1,30 @@
-//! A table that is sorted by a click on a heading.
+//! Table that a click on a heading sorts.
 
 use super::markup::Markup;
 
-/// The heading of a column.
+/// Heading of a column.
 #[derive(Clone, Copy)]
 pub(super) struct Heading<'a> {
     pub name: &'a str,
-    /// Numbers stand to the right.
+    /// True for a column of numbers, which are aligned to the right.
     pub is_number: bool,
-    /// Shown where a pointer rests on it.
+    /// Meaning of the column, shown where a pointer rests on the heading.
     pub meaning: Option<&'static str>,
 }
 
 impl<'a> Heading<'a> {
-    /// Heading of a column of words.
+    /// Makes the heading of a column of words.
     pub const fn words(name: &'a str) -> Self {
         Self { name, is_number: false, meaning: None }
     }
 
-    /// Heading of a column of numbers.
+    /// Makes the heading of a column of numbers.
     pub const fn number(name: &'a str, meaning: Option<&'static str>) -> Self {
         Self { name, is_number: true, meaning }
     }
 }
 
-/// The table, in a box that scrolls sideways where it is wider than the page.
+/// Writes the table, in a box that scrolls sideways if the table is wider than the page.
 pub(super) fn table<'a>(
     body: &mut Markup,
     title: &str,

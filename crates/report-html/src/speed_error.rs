@@ -1,4 +1,5 @@
-//! Speed against error, one plot a workload and measure, with the runs that no other beats.
+//! Speed against error, one plot per workload and measure, with the front of the runs that no other run
+//! beats.
 
 use super::axes;
 use super::markup::plot_text;
@@ -11,18 +12,18 @@ use rasray_report::grouped;
 use rasray_report::{Report, Run};
 use serde_json::{Value, json};
 
-/// A run in a plot.
+/// Run in a plot.
 struct Entry<'a> {
     run: &'a Run,
-    /// Its place from left to right.
+    /// Coordinate from left to right.
     x: f64,
-    /// Speed: more is better.
+    /// Speed of the run; more is better.
     speed: f64,
-    /// The error that was measured.
+    /// Error that was measured.
     error: f64,
-    /// The error's interval, where there is one.
+    /// Interval of the error, where there is one.
     interval: Option<[f64; 2]>,
-    /// More about it.
+    /// Note on the run.
     note: String,
 }
 
@@ -32,27 +33,27 @@ struct Measure {
     title: &'static str,
     x: &'static str,
     y: &'static str,
-    /// True if a faster run stands to the right.
+    /// True if faster runs stand to the right.
     faster_is_right: bool,
-    /// Place of errors too small to be told from zero; absent on an axis that has a zero.
+    /// Place of errors that are too small to be told from zero; absent on an axis that has a zero.
     floor: Option<f64>,
 }
 
-/// Unambiguous rays.
+/// Returns the number of unambiguous rays.
 pub(super) fn evaluated(run: &Run) -> Option<u64> {
     let accuracy = run.accuracy.as_ref()?;
     accuracy.rays.checked_sub(accuracy.ambiguous).filter(|rays| *rays > 0)
 }
 
-/// Missed, false and wrong hits. Where the primitive is unknown, a hit is wrong if rounding does not explain
-/// its t.
+/// Returns the number of missed, false and wrong hits. Where the primitive is unknown, a hit is wrong if
+/// rounding does not explain its t.
 fn errors(run: &Run) -> Option<u64> {
     let accuracy = run.accuracy.as_ref()?;
     let wrong = accuracy.wrong_primitive.or(accuracy.t_off).unwrap_or(0);
     Some(accuracy.missed + accuracy.false_hits + wrong)
 }
 
-/// Millions of rays per second.
+/// Returns the rate in millions of rays per second.
 fn rate(run: &Run) -> Option<f64> {
     let by_time = || Some(run.times.rays? as f64 / run.times.trace_ms? / 1000.0);
     run.times.mrays_per_s.or_else(by_time).filter(|rate| rate.is_finite() && *rate > 0.0)
@@ -78,12 +79,12 @@ fn picture(run: &Run) -> Option<Entry<'_>> {
     Some(Entry { run, x: milliseconds, speed: 1.0 / milliseconds, error, interval: None, note })
 }
 
-/// All plots; a workload of which no run has both numbers has none.
+/// Makes all plots. A workload without a run that has both numbers gets no plot.
 pub(super) fn section(report: &Report) -> Option<Section> {
     let mut plots = Vec::new();
     for (position, (workload, indices)) in by_workload(&report.runs).into_iter().enumerate() {
         let runs = || indices.iter().map(|index| &report.runs[*index]);
-        // The rays of one set are the same for every run; the fewest compared is the honest floor.
+        // Every run traces the rays of one set; the least number that was compared gives the safe floor.
         let rays = runs().filter_map(evaluated).min().unwrap_or(1);
         let kinds: [(Measure, Vec<Entry<'_>>); 3] = [
             (
@@ -176,8 +177,8 @@ fn plot(
     }
 }
 
-/// Steps through the front, slowest first, and on to both edges of the plot: any speed between two runs
-/// is reached by the faster one, with its error, and any lower speed by the slowest.
+/// Draws the steps of the front, slowest run first, extended to both edges of the plot: any speed between two
+/// runs is reached by the faster of the two, with its error, and any lower speed by the slowest run.
 fn front_line(mut steps: Vec<[f64; 2]>, faster_is_right: bool, x: &Value, y: &Value) -> Value {
     if let (Some(slowest), Some(fastest)) = (steps.first().copied(), steps.last().copied())
         && let (Some([left, right]), Some([_, top])) = (axes::ends(x), axes::ends(y))
@@ -193,7 +194,7 @@ fn front_line(mut steps: Vec<[f64; 2]>, faster_is_right: bool, x: &Value, y: &Va
     })
 }
 
-/// Note on the floor, and its line in the plot.
+/// Returns the note on the floor, and the line of the floor in the plot.
 fn caption(floor: Option<f64>, rays: Option<u64>) -> (String, Vec<Value>) {
     let Some(floor) = floor else { return (String::new(), Vec::new()) };
     let note = match rays {

@@ -1,4 +1,4 @@
-//! The tables with one row per run; a click on a heading sorts them.
+//! Tables of the summary with one row per run, which a click on a heading sorts.
 
 use super::markup::Markup;
 use super::names::{milliseconds, workload};
@@ -7,11 +7,11 @@ use super::sortable::{Heading, table};
 use rasray_report::{Accuracy, Counters, ImageError, ListRecord, RateRecord, Report, Run, Statistics};
 use rasray_report::{bytes, grouped};
 
-/// Text of a cell and the value it is sorted by.
+/// Cell of a table: its text, and the value by which it is sorted.
 struct Cell {
     text: String,
     value: f64,
-    /// Confidence of the value, in small print.
+    /// Confidence interval of the value, in small print.
     range: Option<String>,
 }
 
@@ -25,13 +25,13 @@ impl Cell {
     }
 }
 
-/// A column: its heading, its meaning, and the value of a run where it was measured.
+/// Column: its heading, its meaning, and a function for the value of a run, where it was measured.
 struct Column {
     heading: &'static str,
     meaning: &'static str,
     cell: fn(&Run) -> Option<Cell>,
-    /// True if it stands beside speed and error in the first table, which is as wide as a page; the others
-    /// have one of their own.
+    /// True if the column stands beside speed and error in the first table, which is as wide as a page; the
+    /// other columns have a table of their own.
     is_main: bool,
 }
 
@@ -49,7 +49,7 @@ fn count(value: Option<u64>) -> Option<Cell> {
     value.and_then(|value| Cell::new(grouped(value), value as f64))
 }
 
-/// A median with its quartiles.
+/// Makes the cell of a median with its quartiles.
 fn median(run: &Run, name: &str, value: Option<f64>) -> Option<Cell> {
     let quartiles = run
         .spread
@@ -58,18 +58,18 @@ fn median(run: &Run, name: &str, value: Option<f64>) -> Option<Cell> {
     Cell::new(milliseconds(value?), value?)?.with_range(quartiles)
 }
 
-/// A count with the interval of its rate.
+/// Makes the cell of a count with the interval of its rate.
 fn rate(run: &Run, name: &str, value: Option<u64>) -> Option<Cell> {
     let record = run.accuracy.as_ref().and_then(|accuracy| accuracy.rates.get(name));
     count(value)?.with_range(record.map(interval))
 }
 
-/// Confidence interval of the true rate.
+/// Writes the confidence interval of the true rate.
 fn interval(record: &RateRecord) -> String {
     let [low, high] = record.interval;
     let words =
         if record.count == 0 { format!("<\u{a0}{high:.1e}") } else { format!("{low:.1e} – {high:.1e}") };
-    // A line may break between the two, but not at the sign of an exponent.
+    // A line may break between the two bounds, but not at the sign of an exponent.
     words.replace("e-", "e\u{2011}")
 }
 
@@ -81,7 +81,7 @@ fn counter<T>(run: &Run, field: impl Fn(&Counters) -> Option<T>) -> Option<T> {
     run.counters.as_ref().and_then(field)
 }
 
-/// Counts of the lists of all cells.
+/// Returns the counts of the lists of all cells together.
 fn all_lists(run: &Run) -> Option<&ListRecord> {
     run.counters.as_ref()?.lists.first()
 }
@@ -284,8 +284,8 @@ const COLUMNS: &[Column] = &[
     },
 ];
 
-/// Tables of the runs of rays and of the images, as their columns differ: first what speed and error are, as
-/// wide as a page at most, then what else was counted.
+/// Makes the tables of runs on rays and of runs of images, since the two have different columns: first speed
+/// and error, at most as wide as a page, then all other counts.
 pub(super) fn section(report: &Report) -> Option<Section> {
     if report.runs.is_empty() {
         return None;
@@ -304,7 +304,7 @@ pub(super) fn section(report: &Report) -> Option<Section> {
         ("More of images", &images, false),
     ];
     for (title, runs, is_main) in tables {
-        // Only columns in which some run has a value.
+        // Only columns with a value in some run are shown.
         let measured = |column: &&Column| runs.iter().any(|run| (column.cell)(run).is_some());
         let columns: Vec<&Column> =
             COLUMNS.iter().filter(|column| column.is_main == is_main).filter(measured).collect();
@@ -350,7 +350,7 @@ fn certainty(body: &mut Markup, statistics: &Statistics) {
     );
 }
 
-/// One row per run.
+/// Writes a table with one row per run.
 fn rows(body: &mut Markup, title: &'static str, runs: &[&Run], columns: &[&Column]) {
     let numbers = columns.iter().map(|column| Heading::number(column.heading, Some(column.meaning)));
     let headings = ["system", "preset", "rays"].map(Heading::words).into_iter().chain(numbers);

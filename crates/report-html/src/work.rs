@@ -1,4 +1,4 @@
-//! Work of each pixel's ray: heat maps of cells, entries and tests on one scale a quantity.
+//! Work of each pixel's ray: heat maps of cells, entries and tests, with one scale per quantity.
 
 use super::markup::Markup;
 use super::picture::{address, ramp};
@@ -9,7 +9,7 @@ use rasray_report::colour_scale::{VIRIDIS, colour, place};
 use rasray_report::figures::{Figures, WorkMap};
 use rasray_report::grouped;
 
-/// A quantity that the maps hold.
+/// Quantity that the maps hold.
 struct Quantity {
     title: &'static str,
     unit: &'static str,
@@ -26,7 +26,8 @@ const QUANTITIES: [Quantity; 3] = [
     Quantity { title: "Primitive tests per ray", unit: "tests", values: |map| &map.tests },
 ];
 
-/// Counts that the legend names: 0, powers of ten or halves of them where few fit, and the largest.
+/// Returns the counts that the legend labels: 0, powers of ten or halves of them where few fit, and the
+/// largest.
 fn ticks(most: u32) -> Vec<u32> {
     let steps: &[u32] = if most < 100 { &[1, 3] } else { &[1] };
     let mut ticks = vec![0];
@@ -34,7 +35,7 @@ fn ticks(most: u32) -> Vec<u32> {
     loop {
         for step in steps {
             let tick = power.saturating_mul(*step);
-            // Labels that would stand on the largest one's are left out.
+            // Labels that would overlap the label of the largest count are left out.
             if place(tick, most) < 0.88 {
                 ticks.push(tick);
             }
@@ -51,10 +52,10 @@ fn ticks(most: u32) -> Vec<u32> {
     ticks
 }
 
-/// The maps; a quantity that no run spent anything on is left out.
+/// Makes the maps. A quantity that is zero for all runs is left out.
 ///
 /// # Errors
-/// A map that lacks pixels.
+/// A map lacks pixels.
 pub(super) fn section(report: &Report, figures: &Figures) -> Result<Option<Section>, HtmlError> {
     let mut body = Markup::default();
     let mut shown = false;
@@ -75,7 +76,7 @@ pub(super) fn section(report: &Report, figures: &Figures) -> Result<Option<Secti
         body.leaf("h3", &[], quantity.title);
         legend(&mut body, quantity, most)?;
         body.fixed("<div class=\"pictures\">\n");
-        // A structure without the quantity has no map of it.
+        // A structure without the quantity has no map of the quantity.
         for map in figures.work.iter().filter(|map| (quantity.values)(map).iter().any(|count| *count > 0)) {
             picture(&mut body, report, map, quantity, most)?;
         }

@@ -1,12 +1,13 @@
-//! The page of a comparison in a browser without a window: no error, every plot drawn, sorting and the
-//! slider at work. Skipped by name where no browser is installed.
+//! Page of a comparison in a browser without a window: no errors, every plot drawn, sorting and the slider at
+//! work. The test is skipped by name if no browser is installed.
 
 use rasray_report_html as html;
 
 use crate::fixture::everything;
 use crate::visit::{LOOK, browser, visit, with_script};
 
-/// Uses the page like a person, once it was looked at, and writes what happened into attributes of the body.
+/// Script that uses the page like a person, after the page was measured, and writes the results into
+/// attributes of the body.
 const PROBE: &str = r##"<script>
 addEventListener("load", () => {
   const report = (name, value) => parent.document.body.setAttribute(`data-probe-${name}`, value);
@@ -63,7 +64,8 @@ fn the_page_works_in_a_browser() {
         return;
     };
     let page = probed(&fixture());
-    // Windows have a least width that phones are below, so a phone is a frame in a window.
+    // Windows have a least width that is greater than a phone's, so a phone is simulated by a frame in a
+    // window.
     let phone = format!(
         "<!doctype html><title>phone</title><iframe width=\"360\" height=\"740\" style=\"border:0\" srcdoc=\"{}\">\
          </iframe>",
@@ -74,14 +76,15 @@ fn the_page_works_in_a_browser() {
         assert_eq!(visit.probe("width"), width);
         assert_eq!(visit.complaints, Vec::<String>::new());
         let (areas, drawn) = (visit.probe("areas"), visit.probe("drawn"));
-        // Speed and error: two for each of two ray sets, one for images. Two histograms, two times
-        // percentiles; of passes builds, two traces and images; one of memory.
+        // There are 14 plots. Speed and error: two for each of two ray sets, one for images. Two histograms,
+        // two plots of percentiles. Passes: one plot of builds, two of traces, one of images. One plot of
+        // memory.
         assert_eq!((areas.as_str(), drawn.as_str()), ("14", "14"));
         assert_eq!(visit.probe("wide"), "0", "the page scrolls sideways at {width} pixels");
         if width == "1280" {
             assert_eq!(visit.probe("cut"), "", "tables that are wider than the page");
         }
-        // Each axis of numbers has labels that make it a scale.
+        // Each axis of numbers has enough labels to be readable.
         let unlabelled = visit.probe("unlabelled");
         assert_eq!(unlabelled, "", "axes with fewer than two labels");
         let rates = |name: &str| -> Vec<f64> {
@@ -106,7 +109,8 @@ fn the_browser_test_sees_a_broken_page() {
         return;
     };
     let page = fixture();
-    // A plot that cannot be drawn, for its place is gone, and a picture that the page may not load.
+    // The first fault is a plot that cannot be drawn because its place is missing, the second a picture that
+    // the page may not load.
     let broken = page.replacen("id=\"histogram-0\"", "id=\"elsewhere\"", 1);
     assert_ne!(broken, page);
     let broken = with_script(&broken, "<img src=\"https://a.invalid/b.png\" alt=\"\">");

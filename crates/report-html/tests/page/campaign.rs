@@ -1,4 +1,4 @@
-//! The page of a campaign: bars, curves, speed against error, tables; and that no name becomes markup.
+//! Tests of the page of a campaign: bars, curves, speed against error, and tables; no name becomes markup.
 
 use rasray_report::{
     Accuracy, Campaign, CampaignRecord, Cell, CellImage, CellRays, CellRecord, Device, ExperimentRecord,
@@ -8,7 +8,7 @@ use rasray_report_html::campaign_page;
 
 use crate::visit::{LOOK, browser, visit, with_script};
 
-/// The line of a run that an experiment asked for.
+/// Makes the line of a run that an experiment asked for.
 fn line(place: u32, name: &str, system: &str, samples: Option<u32>, is_image: bool) -> Report {
     let experiment =
         ExperimentRecord { place: u32::from(name != "Samples"), name: name.to_owned(), ..Default::default() };
@@ -46,7 +46,7 @@ fn line(place: u32, name: &str, system: &str, samples: Option<u32>, is_image: bo
     Report { cell: Some(cell), ..report }
 }
 
-/// A parameter with three values, and two systems on rays and images.
+/// Makes lines of a parameter with three values, and of two systems on rays and images.
 fn lines() -> Vec<Report> {
     let samples = [25, 50, 100].into_iter().enumerate();
     let samples = samples.map(|(place, samples)| line(place as u32, "Samples", "mmrt", Some(samples), false));
@@ -68,7 +68,7 @@ fn page(lines: &[Report]) -> String {
 fn experiments_have_the_plots_of_what_they_vary() {
     let page = page(&lines());
     let plot = |id: &str| page.contains(&format!("id=\"experiment-{id}\""));
-    // The parameter has curves, the systems have bars, and both have speed against error.
+    // The parameter has curves, the systems have bars, and both have plots of speed against error.
     for id in [
         "0-0-samples-mrays_per_s",
         "0-0-samples-build_ms",

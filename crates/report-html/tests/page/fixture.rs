@@ -1,4 +1,4 @@
-//! A report with everything in it, made without a device: numbers are plausible, not measured.
+//! Fixture: a report that has every part, made without a device; its numbers are plausible, not measured.
 
 #![allow(
     clippy::field_reassign_with_default,
@@ -14,12 +14,13 @@ use rasray_report::{
 };
 use serde_json::json;
 
-/// Pixels a row of all pictures.
+/// Width of all pictures, pixels.
 pub const WIDTH: u32 = 96;
-/// Rows of all pictures.
+/// Height of all pictures, pixels.
 pub const HEIGHT: u32 = 54;
 
-/// System, preset, Mrays/s of camera rays, wrong answers of 200,000, and the factor of errors in t.
+/// Contestants: system, preset, Mrays/s of camera rays, wrong answers of 200,000, and the factor of errors in
+/// t.
 const CONTESTANTS: [(&str, &str, f64, u64, f64); 5] = [
     ("mmrt", "robust", 1.9, 14, 4.0),
     ("mmrt", "published", 3.4, 870, 40.0),
@@ -28,7 +29,8 @@ const CONTESTANTS: [(&str, &str, f64, u64, f64); 5] = [
     ("brute-force", "robust", 0.02, 0, 0.0),
 ];
 
-/// Passes whose shares are the figure, whose medians are not, and of which some are dispatched often.
+/// Makes passes whose shares add up to the figure while their medians do not, and some of which are
+/// dispatched often.
 fn passes(figure: f64, of: PassOf, system: &str) -> Vec<Pass> {
     let names: &[&str] = match (of, system) {
         (PassOf::Build, "mmrt") => {
@@ -79,7 +81,7 @@ fn spread(name: &str, median: f64) -> (String, Spread) {
     (name.to_owned(), spread)
 }
 
-/// The rate of `count` in 199,959 rays.
+/// Returns the rate of `count` in 199,959 rays.
 fn rate(name: &str, count: u64) -> (String, RateRecord) {
     let record = RateRecord::of(Rate { count, total: 199_959 }).expect("rays");
     (name.to_owned(), record)
@@ -149,7 +151,7 @@ fn depth_errors(run: usize, factor: f64) -> DepthErrors {
     DepthErrors { run, zero: 60_000, bins }
 }
 
-/// A disc that shades towards its edge over a gradient, with `noise` in its red.
+/// Draws a shaded disc over a gradient, with `noise` in the red channel.
 fn pixels(noise: f32) -> Vec<[f32; 3]> {
     each_pixel(|x, y| {
         let distance = (x * x + y * y).sqrt();
@@ -175,7 +177,7 @@ fn work(run: usize, rate: f64) -> WorkMap {
     WorkMap { run, width: WIDTH, height: HEIGHT, cells: cost(40.0), entries: cost(90.0), tests: cost(20.0) }
 }
 
-/// Two ray sets and images of five contestants on a scene of that name.
+/// Makes a report of two ray sets and images of five contestants on a scene of that name.
 pub fn everything(scene: &str) -> (Report, Figures) {
     let mut runs = Vec::new();
     let mut figures = Figures::default();
@@ -229,7 +231,7 @@ pub fn everything(scene: &str) -> (Report, Figures) {
     (report, figures)
 }
 
-/// Hard cases, each traced by every contestant; every third verdict is bad.
+/// Makes the runs of hard cases, each traced by every contestant; every third verdict is bad.
 #[allow(dead_code, reason = "each test program has its own copy")]
 pub fn hard_runs(cases: usize) -> Vec<Run> {
     let mut runs = Vec::new();

@@ -1,4 +1,4 @@
-//! The page of a report, as text and in a browser.
+//! Tests of the page of a report, as text and in a browser.
 
 mod browser;
 mod campaign;

@@ -1,4 +1,4 @@
-//! The page of a comparison, as text: its parts, what it loads, and that no name becomes markup.
+//! Tests of the page of a comparison as text: its parts, its loads, and that no name becomes markup.
 
 use crate::fixture::{everything, hard_runs};
 use rasray_report::figures::Figures;
@@ -9,19 +9,19 @@ fn page(report: &Report, figures: &Figures) -> String {
     String::from_utf8(html::page(report, figures).expect("figures that fit")).expect("UTF-8")
 }
 
-/// The page without the library that draws its plots, which is the longest script by far.
+/// Returns the page without the library that draws its plots, by far the longest script.
 fn without_library(page: &str) -> String {
     let start = page.find("<script>\n/**\n* plotly.js").expect("the library");
     let end = start + page[start..].find("</script>").expect("its end");
     format!("{}{}", &page[..start], &page[end + "</script>".len()..])
 }
 
-/// Anchors of the parts, in order.
+/// Returns the anchors of the parts, in order.
 fn parts(page: &str) -> Vec<String> {
     page.split("<section id=\"").skip(1).map(|rest| rest.split('"').next().unwrap_or("").to_owned()).collect()
 }
 
-/// Charts come first, then tables, then pictures.
+/// Anchors of all parts in order: charts first, then tables, then pictures.
 const ALL_PARTS: [&str; 9] =
     ["speed-error", "passes", "memory", "histograms", "percentiles", "summary", "work", "images", "runs"];
 
@@ -37,7 +37,7 @@ fn a_full_report_has_every_part_once() {
     assert!(page.contains("A software driver.") && page.contains("0123456789ab"));
 }
 
-/// Takes a measurement out of every run or figure.
+/// Function that removes a measurement from every run or figure.
 type Removal = fn(&mut Report, &mut Figures);
 
 #[test]
@@ -143,7 +143,7 @@ fn numbers_that_change_change_the_page() {
     assert_eq!(page(&report, &figures), before, "the same report makes the same page");
 }
 
-/// Contents of a bar chart: its title, and each bar's name with the sum of its parts.
+/// Returns the contents of a bar chart: each bar's name, and the names and sizes of its parts.
 fn bars(page: &str, id: &str) -> Vec<(String, Vec<(String, f64)>)> {
     let start = "<script type=\"application/json\" id=\"plots\">";
     let plots = page.split(start).nth(1).and_then(|rest| rest.split("</script>").next()).expect("plots");
@@ -208,7 +208,7 @@ fn bars_of_passes_are_as_long_as_the_figures_of_the_table() {
     }
 }
 
-/// The host's part of a build is no pass of a device, however many passes there are.
+/// Checks that the host's part of a build is shown as no pass of a device, however many passes there are.
 #[test]
 fn what_the_host_does_has_a_bar_of_its_own() {
     let (report, figures) = everything("spheres:10k");
@@ -242,7 +242,7 @@ fn no_text_of_the_report_becomes_markup() {
     let page = without_library(&page(&report, &figures));
     assert!(!page.contains("alert(1)<") && !page.contains("<!--"), "raw text of the report");
     assert!(page.contains("&lt;script&gt;alert(1)&lt;/script&gt;"));
-    // Two of the page's own and one of data; the library is taken out.
+    // Two scripts belong to the page and one holds data; the library is taken out.
     assert_eq!(page.matches("<script").count(), 3);
     assert_eq!(well_formed(&page), Ok(()));
 }
@@ -253,7 +253,7 @@ fn the_page_loads_nothing() {
     let page = without_library(&page(&report, &figures));
     assert_eq!(loads(&page), Vec::<String>::new());
     assert!(page.contains("content=\"default-src &#39;none&#39;; img-src data: blob:;"));
-    // The check sees what it looks for.
+    // This part checks that the check finds what it looks for.
     for bad in
         ["<img src=\"https://a.example/b.png\">", "<a href=\"//a.example\">x</a>", "<link rel=\"icon\">"]
     {
@@ -261,7 +261,7 @@ fn the_page_loads_nothing() {
     }
 }
 
-/// Everything in a page that makes a browser ask for something, or leads elsewhere.
+/// Returns everything in a page that makes a browser ask for something, or that leads elsewhere.
 fn loads(page: &str) -> Vec<String> {
     let mut found = Vec::new();
     for (attribute, allowed) in
@@ -292,13 +292,14 @@ fn the_page_is_well_formed() {
     distinct.sort_unstable();
     distinct.dedup();
     assert_eq!(distinct.len(), ids.len(), "an id twice");
-    // Every picture has words for those who cannot see it; the viewer's get theirs with their source.
+    // Every picture has a description for readers who cannot see it; the viewer's pictures get theirs with
+    // their source.
     let pictures = page.matches("<img").count();
     assert_eq!(page.matches(" alt=\"").count(), pictures);
     assert_eq!(page.matches(" alt=\"\"").count(), 2);
 }
 
-/// Checks that every element that begins ends, in order; scripts and styles are skipped over.
+/// Checks that every element that begins ends, in order; scripts and styles are skipped.
 fn well_formed(page: &str) -> Result<(), String> {
     const EMPTY: [&str; 4] = ["meta", "img", "input", "!doctype"];
     let mut open: Vec<&str> = Vec::new();
@@ -345,7 +346,8 @@ fn pictures_are_in_the_page_once() {
     let (report, figures) = everything("spheres:10k");
     let text = without_library(&page(&report, &figures));
     let images = figures.images.as_ref().expect("images");
-    // Work maps in three quantities, images, maps of FLIP; three ramps of legends for work and one for FLIP.
+    // The pictures are work maps in three quantities, images, maps of FLIP, three ramps of legends for work
+    // and one for FLIP.
     let expected = 3 * figures.work.len() + 1 + 2 * images.systems.len() + 4;
     assert_eq!(text.matches("data:image/png;base64,").count(), expected);
 }

@@ -5,13 +5,14 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
-/// Time that a browser may take on a busy machine before it is given up.
+/// Longest time that a browser may take on a busy machine.
 const PATIENCE: Duration = Duration::from_secs(120);
 
-/// Script that measures any page: the number of plots, the number drawn, and how far it scrolls sideways.
+/// Script that measures any page: the number of plots, the number drawn, and how far the page scrolls
+/// sideways.
 pub const LOOK: &str = r##"<script>
 addEventListener("load", () => {
-  // In a frame the answers go to the page around it, whose elements are the ones that are read.
+  // In a frame the answers go to the outer page, whose elements the test reads.
   const report = (name, value) => parent.document.body.setAttribute(`data-probe-${name}`, value);
   const areas = [...document.querySelectorAll(".area")];
   report("areas", areas.length);
@@ -21,7 +22,7 @@ addEventListener("load", () => {
 });
 </script>"##;
 
-/// The first browser of the usual names on the path.
+/// Returns the first browser of the usual names on the path.
 pub fn browser() -> Option<PathBuf> {
     let path = std::env::var_os("PATH")?;
     let names = ["chromium", "chromium-browser", "google-chrome", "google-chrome-stable", "chrome"];
@@ -30,10 +31,10 @@ pub fn browser() -> Option<PathBuf> {
         .find(|candidate| candidate.is_file())
 }
 
-/// Result of a visit: the elements after the scripts ran, and their complaints.
+/// Result of a visit: the elements after the scripts ran, and the complaints of the scripts.
 pub struct Visit {
     elements: String,
-    /// Complaints of its scripts.
+    /// Complaints of the page's scripts.
     pub complaints: Vec<String>,
 }
 
@@ -45,7 +46,8 @@ impl Visit {
     }
 }
 
-/// Opens a page in a window without scroll bars. Output goes to files: it is longer than a pipe holds.
+/// Opens a page in a window without scroll bars. Output goes to files, because it is longer than a pipe
+/// holds.
 pub fn visit(browser: &Path, page: &str) -> Visit {
     let folder = tempfile::tempdir().expect("a folder");
     let file = folder.path().join("page.html");
