@@ -1,44 +1,45 @@
-//! Images in addition to the colours.
+//! Images in addition to the colours (arbitrary output variables).
 
 use std::fmt;
 
 use rasray_scene::Scene;
 use rasray_scene::needs::{Needs, Term, Workload};
 
-/// An image in addition to the colours. All are of the rays through pixels' centres, but for those of the
-/// samples ([`Aov::is_of_samples`]).
+/// Image in addition to the colours. All are of the rays through pixels' centres, except those of the samples
+/// ([`Aov::is_of_samples`]).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Aov {
-    /// Metres along the ray; 0 where nothing was hit.
+    /// Distance along the ray, metres; 0 where nothing was hit.
     Depth,
     /// Unit geometric normal in the world, facing the eye; zero where nothing was hit.
     Normal,
     /// Global triangle id in scene order; `u32::MAX` where nothing was hit.
     Primitive,
-    /// Samples in the mean of each pixel: those that were made and are finite.
+    /// Number of samples in the mean of each pixel: those that were made and are finite.
     Samples,
-    /// Base colour, linear; of an unlit material what it shows. 0 where nothing was hit.
+    /// Base colour, linear; for an unlit material the colour that it shows. 0 where nothing was hit.
     Albedo,
-    /// World, metres; 0 where nothing was hit.
+    /// Position in the world, metres; 0 where nothing was hit.
     Position,
-    /// Texture coordinates 0; 0 where there are none.
+    /// Texture coordinates of set 0; 0 where there are none.
     Uv,
     /// Index of the material in scene order; `u32::MAX` where nothing was hit.
     Material,
     /// Index of the instance in scene order; `u32::MAX` where nothing was hit.
     Instance,
-    /// From where a pixel's point is to where it was one frame before: pixels to the right and upwards.
+    /// Motion from the place of a pixel's point to its place one frame before: pixels to the right and
+    /// upwards.
     Motion,
-    /// Light that was scattered at most once, and what emits; W/(sr m^2).
+    /// Emitted light, and light that was scattered at most once; W/(sr m^2).
     Direct,
     /// Light that was scattered more often: the picture less [`Aov::Direct`].
     Indirect,
-    /// Variance of the mean of each pixel as if samples were independent; 0 of one sample.
+    /// Variance of the mean of each pixel, computed as if samples were independent; 0 for one sample.
     Variance,
 }
 
 impl Aov {
-    /// All of them, in their order.
+    /// All additional images, in their order.
     pub const ALL: [Self; 13] = [
         Self::Depth,
         Self::Normal,
@@ -55,10 +56,10 @@ impl Aov {
         Self::Variance,
     ];
 
-    /// Images that a denoiser is fed with, beside the colours.
+    /// Images that a denoiser takes beside the colours.
     pub const FOR_DENOISING: [Self; 2] = [Self::Albedo, Self::Normal];
 
-    /// Its name on the command line.
+    /// Returns the name of the image on the command line.
     pub fn name(self) -> &'static str {
         match self {
             Self::Depth => "depth",
@@ -77,7 +78,7 @@ impl Aov {
         }
     }
 
-    /// Description, one line of help.
+    /// Returns the description of the image, one line of help.
     pub fn doc(self) -> &'static str {
         match self {
             Self::Depth => "Z: metres from the eye along the ray",
@@ -96,7 +97,7 @@ impl Aov {
         }
     }
 
-    /// Channels of a file, in their order.
+    /// Returns the channels of a file, in their order.
     pub fn channels(self) -> &'static [&'static str] {
         match self {
             Self::Depth => &["Z"],
@@ -115,38 +116,39 @@ impl Aov {
         }
     }
 
-    /// Bytes of a pixel.
+    /// Returns the bytes per pixel.
     pub fn bytes(self) -> u64 {
         (self.channels().len() * size_of::<u32>()) as u64
     }
 
-    /// True if its values are whole numbers of 32 bits; else they are single-precision.
+    /// True if the values are whole numbers of 32 bits; otherwise they are single-precision.
     pub fn is_whole(self) -> bool {
         matches!(self, Self::Primitive | Self::Samples | Self::Material | Self::Instance)
     }
 
-    /// True if it is of all samples of a picture together; else it is of the rays through pixels' centres.
+    /// True if the image is of all samples of a picture together; otherwise it is of the rays through pixels'
+    /// centres.
     pub fn is_of_samples(self) -> bool {
         matches!(self, Self::Samples | Self::Direct | Self::Indirect | Self::Variance)
     }
 }
 
-/// Images in addition to the colours.
+/// Selection of images in addition to the colours.
 #[derive(Clone, Copy, Default, PartialEq, Eq)]
 pub struct AovSelection(u16);
 
 impl AovSelection {
-    /// True if the image is wanted.
+    /// True if the selection contains the image.
     pub fn contains(self, aov: Aov) -> bool {
         self.0 & 1 << aov as u16 != 0
     }
 
-    /// True if no image is wanted.
+    /// True if the selection is empty.
     pub fn is_empty(self) -> bool {
         self.0 == 0
     }
 
-    /// Those that are wanted, in their order.
+    /// Returns the selected images, in their order.
     pub fn iter(self) -> impl Iterator<Item = Aov> {
         Aov::ALL.into_iter().filter(move |aov| self.contains(*aov))
     }
@@ -157,24 +159,24 @@ impl AovSelection {
         Self(other.into_iter().fold(self.0, |bits, aov| bits | 1 << aov as u16))
     }
 
-    /// True if any needs materials and meshes of the surfaces that pixels show.
+    /// True if any image needs materials and meshes of the surfaces that pixels show.
     pub(crate) fn has_surfaces(self) -> bool {
         self.iter().any(|aov| {
             matches!(aov, Aov::Albedo | Aov::Position | Aov::Uv | Aov::Material | Aov::Instance | Aov::Motion)
         })
     }
 
-    /// True if any is of the rays through pixels' centres.
+    /// True if any image is of the rays through pixels' centres.
     pub(crate) fn has_centres(self) -> bool {
         self.iter().any(|aov| !aov.is_of_samples())
     }
 
-    /// True if any needs the picture of light that is scattered at most once.
+    /// True if any image needs the picture of light that is scattered at most once.
     pub(crate) fn has_direct_light(self) -> bool {
         self.contains(Aov::Direct) || self.contains(Aov::Indirect)
     }
 
-    /// Adds to a workload what these images need of it.
+    /// Adds the needs of these images to a workload.
     pub fn workload(self, workload: Workload) -> Workload {
         match self.contains(Aov::Albedo) {
             true => Workload { emission: true, shades: true, ..workload },
@@ -182,7 +184,7 @@ impl AovSelection {
         }
     }
 
-    /// Data of a scene that a picture with these images needs.
+    /// Returns the data of a scene that a picture with these images needs.
     pub fn needs(self, scene: &Scene, workload: Workload) -> Needs {
         let needs = Needs::of(scene, self.workload(workload));
         match self.contains(Aov::Uv) {
@@ -210,7 +212,7 @@ impl fmt::Debug for AovSelection {
     }
 }
 
-/// The pixels of an image in addition to the colours, rows from the top: those of each channel, in the order
+/// Pixels of an image in addition to the colours, rows from the top: the pixels of each channel, in the order
 /// of [`Aov::channels`].
 #[derive(Clone, Debug, PartialEq)]
 pub enum AovImage {
@@ -221,7 +223,7 @@ pub enum AovImage {
 }
 
 impl AovImage {
-    /// Without pixels yet, and room for so many.
+    /// Makes an image without pixels, with room for that many.
     pub(crate) fn with_room(aov: Aov, pixels: usize) -> Self {
         match aov.is_whole() {
             true => Self::Whole(Vec::with_capacity(pixels)),
@@ -229,14 +231,14 @@ impl AovImage {
         }
     }
 
-    /// An image of pixels with so many channels.
+    /// Makes an image of pixels with N channels.
     pub fn of<const N: usize>(pixels: impl IntoIterator<Item = [f32; N]>) -> Self {
         let mut image = Self::Floats(vec![Vec::new(); N]);
         image.extend(pixels);
         image
     }
 
-    /// Adds pixels after those that are there, with as many channels; to whole numbers none.
+    /// Appends pixels with as many channels; an image of whole numbers stays unchanged.
     pub(crate) fn extend<const N: usize>(&mut self, pixels: impl IntoIterator<Item = [f32; N]>) {
         let Self::Floats(channels) = self else { return };
         for pixel in pixels {
@@ -244,13 +246,13 @@ impl AovImage {
         }
     }
 
-    /// Adds pixels after those that are there; to floats none.
+    /// Appends pixels of whole numbers; an image of floats stays unchanged.
     pub(crate) fn extend_whole(&mut self, pixels: impl IntoIterator<Item = u32>) {
         let Self::Whole(values) = self else { return };
         values.extend(pixels);
     }
 
-    /// Pixels of its shortest channel.
+    /// Returns the number of pixels in the shortest channel.
     pub fn pixels(&self) -> usize {
         match self {
             Self::Floats(channels) => channels.iter().map(Vec::len).min().unwrap_or(0),
@@ -258,7 +260,7 @@ impl AovImage {
         }
     }
 
-    /// The pixels with three channels; nothing where there are not as many.
+    /// Returns the pixels of an image with three channels; `None` for any other number of channels.
     pub fn triples(&self) -> Option<Vec<[f32; 3]>> {
         let Self::Floats(channels) = self else { return None };
         let [x, y, z] = &channels[..] else { return None };

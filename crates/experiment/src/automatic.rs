@@ -1,5 +1,5 @@
-//! The structure of a job that names none: the one that is exact and fastest for it, as measured in
-//! docs/measurements/speed.md.
+//! Automatic choice of the structure for a job that names none: the exact one that is fastest for the job, as
+//! measured in docs/measurements/speed.md.
 
 use rasray_options::OptionValues;
 use rasray_systems::{Preset, System};
@@ -8,34 +8,35 @@ use crate::error::ExperimentError;
 use crate::selection::one_system;
 use crate::system_config::SystemConfig;
 
-/// Exact systems, the one first that traces fastest.
+/// Exact systems that may be chosen, in order: the fastest to trace comes first.
 const CANDIDATES: [&str; 2] = ["bvh", "bricks"];
 
-/// Why the first of them is taken.
+/// Reason for the choice of the first candidate.
 const FASTEST: &str = "the fastest exact structure";
 
-/// Rays per triangle and build from which a tree by surface area repays its build, where each frame builds
-/// one.
+/// Number of rays per triangle and build at which a tree by surface area repays its build, where each frame
+/// builds one.
 const RAYS_PER_TRIANGLE: u64 = 1000;
 
-/// A system that is named, or left to the job.
+/// System that is named by the user, or left to the job.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SystemRequest {
-    /// The fastest exact one for the job.
+    /// The fastest exact system for the job.
     Automatic,
-    /// This one.
+    /// The system with this name.
     Named(&'static System),
 }
 
 impl SystemRequest {
-    /// The word of [`SystemRequest::Automatic`].
+    /// Word on the command line for [`SystemRequest::Automatic`].
     pub const AUTOMATIC: &str = "auto";
 
-    /// The system with a preset and options. Where it is left to the job, the fastest one that has all of
-    /// them, and the reason with it ([`SystemConfig::chosen`]).
+    /// Makes the configuration of the system with a preset and options. If the choice is left to the job, it
+    /// is the fastest system that has all of these options, and the configuration holds the reason
+    /// ([`SystemConfig::chosen`]).
     ///
     /// # Errors
-    /// As of [`one_system`].
+    /// As for [`one_system`].
     pub fn config(self, preset: Preset, options: &OptionValues) -> Result<SystemConfig, ExperimentError> {
         let system = match self {
             Self::Named(system) => return one_system(system, preset, options),
@@ -59,9 +60,9 @@ fn is_fastest(system: &System) -> bool {
 }
 
 impl SystemConfig {
-    /// Fits a structure that the job chose to frames, each of which builds it for so many rays at most: a
-    /// tree whose build is quick, unless there are so many rays that they repay a better one. The device has
-    /// no say, so that shares of a job are alike.
+    /// Adapts a structure that the job chose to frames, each of which builds it for at most `rays` rays: a
+    /// tree that is quick to build, unless so many rays repay a better one. The choice does not depend on the
+    /// device, so that all shares of a job agree.
     #[must_use]
     pub fn rebuilt_for(mut self, rays: u64, triangles: u64) -> Self {
         let is_free = self.chosen.is_some()

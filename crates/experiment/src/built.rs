@@ -1,4 +1,4 @@
-//! A structure over a scene on the device, built, and what that took.
+//! Structure over a scene on the device: the build, its times and its bytes.
 
 use std::collections::BTreeMap;
 use std::time::Instant;
@@ -17,16 +17,17 @@ use crate::jobs::Refresh;
 use crate::passes::{Passes, median, spread};
 use rasray_report::{Counters, ListRecord, Memory, Pass, PassOf, Spread, StageTime, Times};
 
-/// True if addressing was left open, and the device has addresses.
+/// True if the addressing was left open and the device supports addresses.
 fn may_use_addresses(device: &Device, spec: &Spec) -> bool {
     let has_option = spec.system().has("addressing");
     has_option && spec.options().get("addressing").is_none() && device.has(Feature::BufferDeviceAddress)
 }
 
-/// Frames are made one after the other, and each waits for its build: pools are as large as they have to be.
+/// Settings of frames made one after the other, each of which waits for its build: pools are just as large as
+/// their contents.
 const SETTINGS: FrameSettings = FrameSettings { slots: 1, headroom: 0 };
 
-/// Makes a structure, in parts where these are given, and builds it until complete.
+/// Makes a structure, in parts if these are given, and builds it until it is complete.
 fn first_build(
     device: &Device,
     spec: &Spec,
@@ -51,7 +52,7 @@ fn first_build(
     Ok((structure, outcome))
 }
 
-/// A device that lacks what a system needs, or what one of its options asks for.
+/// Makes the error of a device that lacks a feature which a system or one of its options needs.
 fn missing_feature(device: &Device, spec: &Spec, missing: Feature) -> ExperimentError {
     let (system, device) = (spec.system().name, device.name().to_owned());
     match spec.option_that_requires(missing) {
@@ -62,8 +63,8 @@ fn missing_feature(device: &Device, spec: &Spec, missing: Feature) -> Experiment
     }
 }
 
-/// Names the structure or the scene in the error of a buffer larger than one binding; others stay as they
-/// are.
+/// Adds the name of the structure or of the scene to the error of a buffer that is larger than one binding;
+/// other errors are returned unchanged.
 fn too_large(error: ExperimentError, spec: &Spec) -> ExperimentError {
     match error {
         ExperimentError::Ads(AdsError::Gpu(error @ GpuError::TooLarge { .. }))
@@ -77,40 +78,41 @@ fn too_large(error: ExperimentError, spec: &Spec) -> ExperimentError {
     }
 }
 
-/// True for a structure's own buffers, which are named after it: addresses reach these, and no others.
+/// True for a structure's own buffers, whose names begin with the structure's name: only these are reached by
+/// addresses.
 fn is_pool(name: &str, spec: &Spec) -> bool {
     name.strip_prefix(spec.structure()).is_some_and(|rest| rest.starts_with(' '))
 }
 
-/// Options and paths by name.
+/// Options and choices of the device, by name.
 pub type ResolvedOptions = (BTreeMap<String, Value>, BTreeMap<String, String>);
 
-/// A structure, built, with what the building cost.
+/// Structure after its build, with the costs of the build.
 pub struct Built {
-    /// Whose last build was complete.
+    /// Structure of frames, whose last build was complete.
     pub(super) frames: FrameStructure,
     pub(super) outcome: BuildOutcome,
     pub(super) passes: Passes,
     viewpoint: Viewpoint,
-    /// For each part that moves: whether it did in this frame. Empty: all did.
+    /// Flags of the moving parts that moved in this frame; empty if all moved.
     moved: Vec<bool>,
-    /// From nothing to complete, milliseconds; absent where something was there.
+    /// Time of the first complete build, milliseconds; absent if the structure existed before.
     first_ms: Option<f64>,
-    /// Time of each repeated build, or of the one that a frame took, as the host saw it, milliseconds.
+    /// Times of the repeated builds, or of the build of a frame, measured by the host, milliseconds.
     whole: Vec<f64>,
-    /// The host's own part of each, milliseconds.
+    /// Times of the host's own part of each build, milliseconds.
     prepare: Vec<f64>,
-    /// True if these are of builds that were repeated to be timed.
+    /// True if these times are of builds that were repeated to be timed.
     is_repeated: bool,
 }
 
 impl Built {
-    /// Makes the structure of a spec and builds it as seen from `eye`, with the scene's camera there, until
-    /// complete. Where a pool exceeds what one binding can hold and nothing was said of addressing, the pools
-    /// are reached by device address instead.
+    /// Makes the structure of a spec and builds it as seen from `eye`, where the scene's camera is, until the
+    /// build is complete. If a pool exceeds the limit of one binding and the spec leaves the addressing open,
+    /// the pools are reached by device address instead.
     ///
     /// # Errors
-    /// The device lacks something or fails, or the build does not become complete.
+    /// The device lacks a feature or fails, or the build does not become complete.
     pub fn new(
         device: &Device,
         spec: &Spec,
@@ -121,11 +123,11 @@ impl Built {
     }
 
     /// Makes and builds the structure of a scene that may move, in the parts that `refresh` asks for.
-    /// [`DeviceScene::parts`] was called then before the scene was posed.
+    /// [`DeviceScene::parts`] must be called before the scene is posed.
     ///
     /// # Errors
-    /// As [`Built::new`], and where nothing of the scene moves on the device or the structure cannot be in
-    /// parts.
+    /// As for [`Built::new`]; also if nothing of the scene moves on the device, or the structure cannot be
+    /// built in parts.
     pub fn refreshed(
         device: &Device,
         spec: &Spec,
@@ -174,17 +176,16 @@ impl Built {
         })
     }
 
-    /// The structure that rays are traced through.
+    /// Returns the structure that rays are traced through.
     pub fn structure(&self) -> &dyn Structure {
         self.frames.structure()
     }
 
-    /// Builds what is stale for the scene as it is now: of the parts that move those that have `moved`, all
-    /// where that is empty, and what depends on where its camera looks from. Times and passes are those of
-    /// this frame from here on.
+    /// Builds the stale parts for the current scene: the moving parts that have `moved` (all if that is
+    /// empty), and everything that depends on the eye. From then on times and passes are those of this frame.
     ///
     /// # Errors
-    /// As [`Built::build_again`].
+    /// As for [`Built::build_again`].
     pub fn follow(
         &mut self,
         device: &Device,
@@ -208,18 +209,18 @@ impl Built {
         Ok(refresh_until_complete(device, &mut self.frames, self.viewpoint, device.best_timing())?)
     }
 
-    /// Times of the passes of builds, with what the host did: where builds were repeated to be timed, or a
-    /// frame took one, the shares of these passes are `build_ms` together.
+    /// Returns the times of the passes of builds, with the host's work. If builds were repeated to be timed,
+    /// or a frame took a build, the shares of these passes add up to `build_ms`.
     pub fn pass_times(&self) -> Vec<Pass> {
         self.passes.report((!self.whole.is_empty()).then_some(PassOf::Build))
     }
 
-    /// The stage of builds, where they were repeated to be timed, or a frame took one.
+    /// Returns the time of the build stage, if builds were repeated to be timed or a frame took a build.
     pub(super) fn stages(&self) -> Vec<StageTime> {
         if self.whole.is_empty() { Vec::new() } else { self.passes.stages() }
     }
 
-    /// Builds what moved once more, which is everything but in parts, and keeps the times.
+    /// Builds the moved parts once more (the whole structure unless it has parts), and keeps the times.
     ///
     /// # Errors
     /// The device fails, or the build does not become complete.
@@ -229,7 +230,8 @@ impl Built {
         self.outcome = self.refresh(device)?;
         self.outcome.regrows += regrows;
         if !std::mem::replace(&mut self.is_repeated, true) {
-            // Those of the first build hold what the driver compiled, and of a frame's what had to grow.
+            // Times of the first build include the driver's compilation, and those of a frame's build the
+            // growth of pools.
             self.passes = Passes::default();
             self.whole.clear();
             self.prepare.clear();
@@ -238,8 +240,8 @@ impl Built {
         Ok(())
     }
 
-    /// Keeps the times of the build that was just done and took `whole` milliseconds, with the host's parts
-    /// as passes, so that passes add up to the whole.
+    /// Keeps the times of the last build, which took `whole` milliseconds, with the host's work as passes, so
+    /// that the passes add up to the whole.
     fn keep_times(&mut self, whole: f64) {
         let BuildOutcome { passes, prepare_milliseconds, .. } = &self.outcome;
         self.passes.repeat();
@@ -260,14 +262,14 @@ impl Built {
         }
     }
 
-    /// Spread of the times of repeated builds, by the names of a report.
+    /// Returns the spread of the times of repeated builds, by the names of a report.
     pub(super) fn spread(&self) -> impl Iterator<Item = (String, Spread)> {
         [("build_ms", &self.whole), ("build_host_ms", &self.prepare)]
             .into_iter()
             .filter_map(|(name, times)| Some((name.to_owned(), spread(times)?)))
     }
 
-    /// Options and paths as the structure resolved them.
+    /// Returns options and choices as the structure resolved them.
     ///
     /// # Errors
     /// The device fails.
@@ -277,7 +279,7 @@ impl Built {
         Ok((rasray_report::options(report.options), paths.collect()))
     }
 
-    /// Bytes of the structure, by part, with its formula.
+    /// Returns the bytes of the structure, by part, and the bytes that its formula gives.
     ///
     /// # Errors
     /// The device fails.
@@ -294,7 +296,7 @@ impl Built {
         })
     }
 
-    /// Counts of the lists of the structure's cells, all together first. All pools are read back.
+    /// Counts the lists of the structure's cells, all cells together first. All pools are read back.
     ///
     /// # Errors
     /// The device fails, or lists are damaged.
@@ -305,7 +307,7 @@ impl Built {
         Ok(all.into_iter().chain(counts).map(list_record).collect())
     }
 
-    /// Counts of the build.
+    /// Returns the counts of the build.
     pub(super) fn counters(&self) -> Result<Counters, ExperimentError> {
         let report = self.structure().report()?;
         let pool = self.outcome.status.pools.first();
@@ -339,7 +341,7 @@ fn list_record(count: ListCounts) -> ListRecord {
 mod tests {
     use super::*;
 
-    /// Only what addresses reach is said to be reached by them.
+    /// Checks that addressing is named only in errors of buffers that addresses reach.
     #[test]
     fn pools_that_exceed_a_binding_are_told_from_other_buffers() {
         let spec = |system: &str| Spec::new(system, "robust", []).expect("registered");
@@ -355,7 +357,7 @@ mod tests {
                 other => panic!("{other:?}"),
             }
         }
-        // The host's triangles are bound whatever the structure.
+        // The scene's triangles are bound for any structure.
         for buffer in ["indices", "positions", "bricks"] {
             let error = of("bricks", buffer);
             assert!(matches!(error, ExperimentError::SceneExceedsBinding { .. }), "{error:?}");

@@ -1,24 +1,24 @@
-//! A campaign as a list of cells: those of many comparisons, each once.
+//! Campaign as a list of cells: the cells of many comparisons, each once.
 
 use crate::cell::CellList;
 use crate::images::NOISE;
 use rasray_report::{CampaignRecord, Cell, CellRecord, ExperimentRecord};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// The cells of a comparison as an experiment asks for them.
+/// Cells of a comparison as an experiment asks for them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ExperimentCells {
-    /// The experiment.
+    /// Record of the experiment.
     pub experiment: ExperimentRecord,
-    /// Those of the comparison.
+    /// Cells of the comparison.
     pub cells: CellList,
-    /// Places of those that the experiment leaves out.
+    /// Places of the cells that the experiment leaves out.
     pub excluded: BTreeSet<usize>,
 }
 
 impl ExperimentCells {
-    /// Places that are asked for, by group. How far noise alone takes an image from the reference is asked
-    /// for where an image is.
+    /// Returns the places of the wanted cells, by group. The image's error by noise alone is wanted where an
+    /// image is.
     fn groups(&self) -> impl Iterator<Item = Vec<usize>> {
         self.cells.groups().iter().map(|group| {
             let wanted = group.clone().filter(|place| !self.excluded.contains(place));
@@ -31,17 +31,17 @@ impl ExperimentCells {
     }
 }
 
-/// All cells of a campaign. One that several comparisons ask for is made once, by the first of them.
+/// All cells of a campaign. A cell that several comparisons ask for is made once, by the first of them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CampaignCells {
     list: CellList,
-    /// For each comparison, the cells that it makes: their places in its own list, and those in the list of
-    /// all.
+    /// Cells that each comparison makes: a map from places in its own list to places in the list of the
+    /// campaign.
     made_by: Vec<BTreeMap<usize, usize>>,
 }
 
 impl CampaignCells {
-    /// The cells of these comparisons, under a title.
+    /// Collects the cells of these comparisons under a title.
     pub fn new(title: &str, comparisons: &[ExperimentCells]) -> Self {
         let mut groups: Vec<Vec<CellRecord>> = Vec::new();
         let mut places: BTreeMap<String, [usize; 2]> = BTreeMap::new();
@@ -80,18 +80,18 @@ impl CampaignCells {
         Self { list: CellList::of(groups), made_by }
     }
 
-    /// All cells, each once. Groups are those of the comparisons.
+    /// Returns all cells, each once, in the groups of the comparisons.
     pub fn list(&self) -> &CellList {
         &self.list
     }
 
-    /// The cells that a comparison, given by its place, makes: places in its own list, and in that of the
-    /// campaign.
+    /// Returns the cells that a comparison, given by its place, makes: a map from places in its own list to
+    /// places in the list of the campaign.
     pub fn made_by(&self, comparison: usize) -> &BTreeMap<usize, usize> {
         &self.made_by[comparison]
     }
 
-    /// Dependencies of the cells, in their order.
+    /// Returns the dependencies of the cells, in their order.
     pub fn cells(&self) -> impl Iterator<Item = &Cell> {
         (0..self.list.len()).filter_map(|place| Some(&self.list.record(place)?.depends_on))
     }

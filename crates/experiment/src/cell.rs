@@ -1,4 +1,4 @@
-//! A comparison as a list of cells: each is one run, as plain data with a key.
+//! Comparison as a list of cells: each cell is one run, as plain data with a key.
 
 use crate::hard_file::LOADER;
 use crate::images::NOISE;
@@ -13,14 +13,15 @@ use rasray_report::{Cell, CellImage, CellRays, CellRecord, CellView};
 use rasray_scene_source::{KeyHash, LoadedScene};
 use std::ops::Range;
 
-/// Key of the run of a cell: a hash of the program (`program`: version and commit) and of everything that the
-/// run depends on, 64 hexadecimal digits. The device is not in it; a report says which it was.
+/// Computes the key of a cell's run: a hash of the program (`program`: version and commit) and of everything
+/// that the run depends on, 64 hexadecimal digits. The key does not depend on the device, which a report
+/// names.
 pub fn cell_key(program: &str, cell: &Cell) -> String {
     let cell = serde_json::to_vec(cell).expect("strings, numbers and maps with string keys");
     KeyHash::default().with("program", program).with("cell", cell).finish()
 }
 
-/// The cells of a comparison in the order of its report. Those of a group are measured together: a set of
+/// Cells of a comparison in the order of its report. The cells of a group are measured together: a set of
 /// rays, a hard case, or all images.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct CellList {
@@ -29,7 +30,7 @@ pub struct CellList {
 }
 
 impl CellList {
-    /// The list of these groups, made by `program` (version and commit).
+    /// Makes the list of these groups for `program` (version and commit).
     pub fn new(program: &str, groups: impl IntoIterator<Item = Vec<Cell>>) -> Self {
         let record = |depends_on: Cell| CellRecord {
             key: cell_key(program, &depends_on),
@@ -39,7 +40,7 @@ impl CellList {
         Self::of(groups.into_iter().map(|group| group.into_iter().map(record).collect()))
     }
 
-    /// The list of groups of records, whose places are those of this list.
+    /// Makes the list of groups of records, whose places are those of this list.
     pub(crate) fn of(groups: impl IntoIterator<Item = Vec<CellRecord>>) -> Self {
         let mut list = Self::default();
         for group in groups {
@@ -60,7 +61,7 @@ impl CellList {
         list
     }
 
-    /// Cells.
+    /// Returns the number of cells.
     pub fn len(&self) -> usize {
         self.records.len()
     }
@@ -70,21 +71,22 @@ impl CellList {
         self.records.is_empty()
     }
 
-    /// Places of the cells of each group.
+    /// Returns the places of the cells of each group.
     pub fn groups(&self) -> &[Range<usize>] {
         &self.groups
     }
 
-    /// Record of the cell at a place; absent where there is none.
+    /// Returns the record of the cell at a place; `None` if there is none.
     pub fn record(&self, place: usize) -> Option<&CellRecord> {
         self.records.get(place)
     }
 }
 
-/// The cells of a comparison on a scene: of each set of rays all systems and files of hits, then all images
-/// and the reference with another seed. Places are those of [`CompareJob::only`].
+/// Lists the cells of a comparison on a scene: for each set of rays all systems and files of hits, then all
+/// images and the reference with another seed. Places are those of [`CompareJob::only`].
 pub fn compare_cells(program: &str, loaded: &LoadedScene, job: &CompareJob<'_>) -> CellList {
-    // Whoever adds a field decides here whether it changes a run. The scene is that of `loaded`.
+    // This pattern makes whoever adds a field decide whether the field changes a run. `loaded` stands for the
+    // scene.
     let CompareJob {
         scene: _,
         camera,
@@ -94,7 +96,7 @@ pub fn compare_cells(program: &str, loaded: &LoadedScene, job: &CompareJob<'_>) 
         frame,
         image,
         lists,
-        // They change what else is kept.
+        // These fields change only the additional data that is kept.
         figures: _,
         keep: _,
         replay: _,
@@ -148,17 +150,18 @@ pub fn compare_cells(program: &str, loaded: &LoadedScene, job: &CompareJob<'_>) 
     CellList::new(program, groups)
 }
 
-/// A hard case of a list.
+/// Subject of a hard case.
 #[derive(Clone, Copy, Debug)]
 pub enum HardSubject<'a> {
-    /// Triangles and rays, by id.
+    /// Case of triangles and rays, by id.
     Rays(&'a str),
-    /// A file.
+    /// Case that is a file.
     File(&'a HardFile),
 }
 
-/// The cells of hard cases: of each case all systems and files of hits, whose places are those of
-/// [`HardJob::only`](crate::HardJob::only); of one that is a file the loader. `scale` is how cases are made.
+/// Lists the cells of hard cases: for each case all systems and files of hits, whose places are those of
+/// [`HardJob::only`](crate::HardJob::only); for a case that is a file the loader. `scale` sets the size of
+/// the cases.
 pub fn hard_cells<'a>(
     program: &str,
     cases: impl IntoIterator<Item = HardSubject<'a>>,
@@ -193,7 +196,7 @@ pub fn hard_cells<'a>(
     CellList::new(program, cases.into_iter().map(group))
 }
 
-/// The cells of a set of rays.
+/// Lists the cells of a set of rays.
 fn on_rays(cell: &Cell, systems: &[SystemConfig], hits_files: &[HitsFile]) -> Vec<Cell> {
     let given = hits_files.iter().map(|file| Cell {
         system: file.name.clone(),
@@ -205,7 +208,7 @@ fn on_rays(cell: &Cell, systems: &[SystemConfig], hits_files: &[HitsFile]) -> Ve
 }
 
 fn of_system(cell: &Cell, config: &SystemConfig) -> Cell {
-    // Why it was chosen does not change a run.
+    // The reason for the choice does not change a run.
     let SystemConfig { system, preset, options, variant, chosen: _ } = config;
     Cell {
         system: system.name.to_owned(),
@@ -231,12 +234,12 @@ fn rays_of_file(file: &RaysFile) -> CellRays {
     CellRays { set: FILE_SET.to_owned(), count: file.rays.len() as u32, content: Some(hash.finish()) }
 }
 
-/// A hash of many values, of which only some are in memory as bytes at a time.
+/// Hashes many values, of which only a part is in memory as bytes at a time.
 fn hash_of<T>(name: &str, values: &[T], bytes: impl Fn(&[T]) -> Vec<u8>) -> KeyHash {
     values.chunks(HASHED).fold(KeyHash::default(), |hash, values| hash.with(name, bytes(values)))
 }
 
-/// Values that are hashed at a time.
+/// Number of values that are hashed at a time.
 const HASHED: usize = 1 << 16;
 
 #[cfg(test)]
@@ -300,7 +303,7 @@ mod tests {
     fn a_comparison_is_a_list_of_cells_each_with_a_key_of_its_own() {
         let loaded = load("cornell".as_ref()).expect("built in");
         let list = compare_cells("1", &loaded, &job(&loaded));
-        // Three sets by two systems and a file, then two images and noise.
+        // The groups are three sets with two systems and a file each, then two images and the noise.
         assert_eq!(list.groups(), [0..3, 3..6, 6..9, 9..12]);
         let records: Vec<_> = (0..list.len()).map(|place| list.record(place).expect("a cell")).collect();
         let shape = |place: usize| {

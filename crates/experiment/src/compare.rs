@@ -1,4 +1,4 @@
-//! Systems side by side: the same rays and images, alternated in one process, against the truth.
+//! Comparison of systems: equal rays and images, alternated in one process, against the truth.
 
 use std::ops::ControlFlow;
 
@@ -29,33 +29,33 @@ pub(super) struct Setting<'a> {
 }
 
 impl CompareJob<'_> {
-    /// True if the cell at a place is to be made.
+    /// True if the cell at a place is wanted.
     pub(super) fn wants(&self, place: usize) -> bool {
         self.only.as_ref().is_none_or(|only| only.contains(&place))
     }
 
-    /// Cells of each set of rays.
+    /// Returns the number of cells of each set of rays.
     fn cells_of_set(&self) -> usize {
         self.systems.len() + self.hits_files.len()
     }
 
-    /// Sets of rays.
+    /// Returns the number of sets of rays.
     fn sets(&self) -> usize {
         self.ray_sets.len() + usize::from(self.rays_file.is_some())
     }
 
-    /// The place of the first image.
+    /// Returns the place of the first image.
     pub(super) fn first_image(&self) -> usize {
         self.sets() * self.cells_of_set()
     }
 
-    /// Cells that are to be made.
+    /// Returns the number of wanted cells.
     fn wanted(&self) -> usize {
         let images = if self.image { self.systems.len() + 1 } else { 0 };
         (0..self.first_image() + images).filter(|place| self.wants(*place)).count()
     }
 
-    /// The name of a set, and its rays.
+    /// Returns the name and the rays of a set.
     fn rays_of(&self, set: usize, source: &RaySource<'_>) -> (String, Vec<Ray>) {
         match (self.ray_sets.get(set), &self.rays_file) {
             (Some(set), _) => (set.name().to_owned(), source.rays(*set, self.rays)),
@@ -65,7 +65,7 @@ impl CompareJob<'_> {
     }
 }
 
-/// Runs all systems on all ray sets, then on the image where that is wanted.
+/// Runs all systems on all ray sets, then on the image if that is wanted.
 pub(super) fn compare(
     device: &Device,
     job: &CompareJob<'_>,
@@ -108,7 +108,7 @@ pub(super) fn compare(
     Ok(comparison)
 }
 
-/// Runs all systems on all ray sets of which a cell is wanted: only these are drawn and answered by the
+/// Runs all systems on all ray sets of which a cell is wanted. Only these sets are drawn and answered by the
 /// oracle.
 fn compare_rays(
     setting: &Setting<'_>,
@@ -197,8 +197,8 @@ fn compare_rays(
     Ok(ControlFlow::Continue(()))
 }
 
-/// The views' centre of ray sets: a tenth of the way from the camera to the middle of the scene, so
-/// that the camera's rays do not start where the views do.
+/// Returns the views' centre for ray sets: a tenth of the way from the camera to the middle of the scene, so
+/// that the camera's rays do not start at the centre of the views.
 fn views_center(stage: &DeviceScene, [lower, upper]: [[f32; 3]; 2]) -> [f32; 3] {
     let eye = stage.scene.eye();
     std::array::from_fn(|axis| {

@@ -1,4 +1,4 @@
-//! The systems of a comparison: each with its structure, built in turns with the others.
+//! Contestants, the systems of a comparison: each has a structure, built in turns with the others.
 
 use rasray_ads::Counters;
 use rasray_gpu::Device;
@@ -11,20 +11,21 @@ use crate::error::ExperimentError;
 use crate::system_config::SystemConfig;
 use rasray_report::{ListRecord, Run, Times};
 
-/// One system of a comparison.
+/// System of a comparison with its built structure.
 pub struct Contestant<'a> {
-    /// The system.
+    /// Configuration of the system.
     pub config: &'a SystemConfig,
-    /// Spec of its structure, which counts the work of rays.
+    /// Spec of the structure, which counts the work of rays.
     pub spec: Spec,
-    /// Its structure.
+    /// Structure of the system after its build.
     pub built: Built,
-    /// Counts of the lists of its cells, where they were counted.
+    /// Counts of the lists of the structure's cells; empty if they were not counted.
     pub lists: Vec<ListRecord>,
 }
 
 impl<'a> Contestant<'a> {
-    /// As [`Contestant::all`], of those systems that `takes_part` says by their position; each comes with it.
+    /// Makes the structures as [`Contestant::all`], only for systems whose position `takes_part` accepts;
+    /// each is returned with its position.
     pub(super) fn some(
         device: &Device,
         stage: &DeviceScene,
@@ -39,13 +40,13 @@ impl<'a> Contestant<'a> {
         Ok(made.map(|made| positions.into_iter().zip(made).collect()))
     }
 
-    /// Makes the structures of all systems around `center` (metres, relative to the frame origin) and
-    /// builds each `repetitions` times for its medians: one build of each in turn, so that what slows the
-    /// machine for a while slows all of them. Nothing where `progress` asks for an early end before all are
+    /// Makes the structures of all systems around `center` (metres, relative to the frame origin) and builds
+    /// each `repetitions` times for its medians: one build of each in turn, so that a temporary slowdown of
+    /// the machine affects all of them. Returns `None` if `progress` asks for an early end before all are
     /// built.
     ///
     /// # Errors
-    /// Options that do not go together, a device that lacks something or fails, a build that does not become
+    /// The options do not go together, the device lacks a feature or fails, or a build does not become
     /// complete.
     pub fn all(
         device: &Device,
@@ -76,7 +77,7 @@ impl<'a> Contestant<'a> {
         Ok(Some(contestants))
     }
 
-    /// A run with names, options, build times and bytes of the system.
+    /// Makes a run with the names, options, build times and bytes of the system.
     ///
     /// # Errors
     /// The device fails.

@@ -7,7 +7,8 @@ use rasray_systems::{SYSTEMS, Spec};
 use crate::backend::{ChosenPath, DeviceDescription, Feature};
 use crate::error::ExperimentError;
 
-/// Requirements that any system may have of a device; each names what it cannot do without when it is made.
+/// Returns the requirements that any system may have of a device. A system names the features that it cannot
+/// do without when it is made.
 pub fn requirements() -> Requirements {
     let mut requirements = Requirements::floor();
     requirements.optional.push((
@@ -26,7 +27,7 @@ pub fn requirements() -> Requirements {
     requirements
 }
 
-/// The devices, and what the one in use means for each system.
+/// Describes the devices, and the consequences of the one in use for each system.
 pub(super) fn describe(device: &Device) -> Result<DeviceDescription, ExperimentError> {
     let wanted = requirements();
     let devices = Device::list(&wanted)?;
@@ -76,7 +77,7 @@ pub(super) fn describe(device: &Device) -> Result<DeviceDescription, ExperimentE
     })
 }
 
-/// Major, minor and patch of a packed Vulkan version.
+/// Writes major, minor and patch of a packed Vulkan version.
 fn version_text(version: u32) -> String {
     format!("{}.{}.{}", version >> 22 & 0x7F, version >> 12 & 0x3FF, version & 0xFFF)
 }

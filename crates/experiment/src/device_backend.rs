@@ -1,4 +1,4 @@
-//! The backend that carries jobs out on a Vulkan device.
+//! Backend that carries out jobs on a Vulkan device.
 
 use rasray_gpu::{Device as GpuDevice, DeviceDesc};
 
@@ -11,11 +11,12 @@ use crate::jobs::{CompareJob, Comparison, HardJob, RenderJob, RenderOutput};
 use crate::render_job::KeptScene;
 use rasray_report::{Device, ListRecord};
 
-/// Pipelines kept for structures that are made again: those of hard cases, of variants, and of frames with
-/// other triangles.
+/// Number of pipelines kept for structures that are made again: those of hard cases, of variants, and of
+/// frames with other triangles.
 const KEPT_PIPELINES: usize = 256;
 
-/// A device; everything made for a job goes with the job, but for what its caller keeps.
+/// Backend on one device. Everything made for a job is dropped with the job, except the state that its caller
+/// keeps.
 struct DeviceBackend {
     device: GpuDevice,
     validation: bool,
@@ -28,7 +29,7 @@ impl DeviceBackend {
         Ok(Self { device, validation: choice.validation })
     }
 
-    /// Messages of the validation layer are errors.
+    /// Turns messages of the validation layer into errors.
     fn check_validation(&self) -> Result<(), ExperimentError> {
         match self.device.validation_messages().first() {
             Some(message) if self.validation => Err(ExperimentError::Validation { message: message.clone() }),
@@ -102,10 +103,10 @@ impl Backend for DeviceBackend {
     }
 }
 
-/// Opens the wanted device, for code that works on it itself.
+/// Opens the wanted device, for code that uses the device directly.
 ///
 /// # Errors
-/// [`ExperimentError::Opening`]: no such device, or it lacks something required.
+/// [`ExperimentError::Opening`]: no such device exists, or it lacks a required feature.
 pub fn open_device(choice: &DeviceChoice) -> Result<GpuDevice, ExperimentError> {
     let device = GpuDevice::create(&DeviceDesc {
         requirements: requirements(),
@@ -122,7 +123,7 @@ pub fn open_device(choice: &DeviceChoice) -> Result<GpuDevice, ExperimentError> 
 /// Opens the wanted device for jobs.
 ///
 /// # Errors
-/// As [`open_device`].
+/// As for [`open_device`].
 pub fn open(choice: &DeviceChoice) -> Result<Box<dyn Backend>, ExperimentError> {
     Ok(Box::new(DeviceBackend::open(choice)?))
 }

@@ -1,4 +1,4 @@
-//! A scene on the device.
+//! Scene on the device.
 
 use glam::DVec3;
 use rasray_gpu::Device;
@@ -9,27 +9,28 @@ use rasray_scene::{Camera, Scene};
 use crate::error::ExperimentError;
 use crate::jobs::Frame;
 
-/// A scene on the device.
+/// Scene on the device.
 #[derive(Debug)]
 pub struct DeviceScene {
-    /// As it is there.
+    /// Data of the scene on the device.
     pub scene: GpuScene,
-    /// Triangles that were left out: their coordinates are not finite, or beyond what can be squared.
+    /// Number of triangles that were left out, because their coordinates are not finite or have no finite
+    /// squares.
     pub dropped_triangles: u64,
-    /// The pass that poses what moves, where it is posed on the device.
+    /// Pass that poses the moving parts, if the device poses them.
     pub(super) pose: Option<PosePass>,
-    /// Poses of everything that moves, once it was posed.
+    /// Poses of all moving parts, after the first pose.
     pub(super) posed: Option<FramePose>,
-    /// True for each moving part that is elsewhere than before the last pose; empty: all.
+    /// Flags of the moving parts whose pose the last pose changed; empty if all changed.
     pub(super) moved: Vec<bool>,
 }
 
 impl DeviceScene {
-    /// Uploads what of a scene is needed, around a frame origin that suits the camera. The size (pixels) and
+    /// Uploads the needed data of a scene, around a frame origin that suits the camera. The size (pixels) and
     /// the seed are those of images.
     ///
     /// # Errors
-    /// The scene names what it does not have, or the device does not hold it.
+    /// The scene refers to data that it does not have, or the device cannot hold it.
     pub fn new(
         device: &Device,
         scene: &Scene,
@@ -43,10 +44,10 @@ impl DeviceScene {
         Self::around(device, scene, origin, camera, [width, height], seed, needs)
     }
 
-    /// As [`DeviceScene::new`], with positions relative to `origin` (world, metres).
+    /// Uploads as [`DeviceScene::new`], with positions relative to `origin` (world, metres).
     ///
     /// # Errors
-    /// As [`DeviceScene::new`].
+    /// As for [`DeviceScene::new`].
     pub fn around(
         device: &Device,
         scene: &Scene,
@@ -59,7 +60,7 @@ impl DeviceScene {
         Ok(Self::uploaded(device, scene, origin, camera, size, seed, needs)?.0)
     }
 
-    /// With the tables that it was made from.
+    /// Uploads the scene, and returns the tables that it was made from as well.
     pub(super) fn uploaded(
         device: &Device,
         scene: &Scene,
@@ -81,7 +82,7 @@ impl DeviceScene {
         Ok((Self { scene: gpu_scene, dropped_triangles, pose: None, posed: None, moved: Vec::new() }, tables))
     }
 
-    /// Positions (metres, relative to the frame origin) and indices as the device has them.
+    /// Reads the positions (metres, relative to the frame origin) and indices back from the device.
     ///
     /// # Errors
     /// The device fails.
@@ -89,15 +90,15 @@ impl DeviceScene {
         Ok(self.scene.geometry().download(device)?)
     }
 
-    /// True if positions have digits enough for a camera: the frame origin, around which the scene was
-    /// uploaded, is the one that suits it.
+    /// True if positions have enough digits for a camera: the frame origin around which the scene was
+    /// uploaded is the one that suits this camera.
     pub fn suits(&self, scene: &Scene, camera: &Camera) -> bool {
         let eye = camera.world_from_camera.translation;
         self.scene.frame_origin() == SceneTables::default_frame_origin(scene, eye)
     }
 
-    /// Looks from elsewhere, or at another size in pixels; the frame origin stays. Structures that depend on
-    /// it are stale then ([`Built::follow`](crate::Built::follow)).
+    /// Changes the camera or the size in pixels; the frame origin stays. Structures that depend on the camera
+    /// are stale afterwards ([`Built::follow`](crate::Built::follow)).
     ///
     /// # Errors
     /// The device fails.
@@ -105,7 +106,7 @@ impl DeviceScene {
         Ok(self.scene.update_camera(view)?)
     }
 
-    /// Sets how the pixels of an image are sampled, and what their rays pass.
+    /// Sets the sampling of an image's pixels, and the surfaces that their rays pass.
     ///
     /// # Errors
     /// The device fails.

@@ -1,4 +1,4 @@
-//! Everything that ends an experiment early.
+//! Errors that end an experiment early.
 
 use std::io;
 use std::path::PathBuf;
@@ -20,14 +20,14 @@ use rasray_tracer::TracerError;
 use crate::selection::SelectionError;
 
 /// Error of an experiment that gave no result. Its message is a whole sentence without a full stop. Messages
-/// of the device, of a structure, of a scene or of the reference are kept as they are.
+/// of the device, of a structure, of a scene or of the reference are passed on unchanged.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ExperimentError {
-    /// Systems, presets and options that do not go together.
+    /// Systems, presets and options do not go together.
     #[error(transparent)]
     Selection(#[from] SelectionError),
-    /// The registry cannot make a system so.
+    /// The registry cannot make a system with these options.
     #[error(transparent)]
     Systems(SystemsError),
     /// There is no scene to show, or no view of it.
@@ -68,9 +68,9 @@ pub enum ExperimentError {
     SceneExceedsBinding {
         /// Name of the buffer.
         name: String,
-        /// Its bytes.
+        /// Size of the buffer, bytes.
         size: u64,
-        /// Bytes of the largest binding.
+        /// Largest size of a binding, bytes.
         limit: u64,
     },
     /// A pool of a structure is larger than one binding.
@@ -84,9 +84,9 @@ pub enum ExperimentError {
     /// A system needs what the device lacks.
     #[error("system {system} needs the feature {feature}, which {device} lacks")]
     SystemNeedsFeature {
-        /// The system.
+        /// Name of the system.
         system: &'static str,
-        /// The feature.
+        /// Missing feature.
         feature: Feature,
         /// Name of the device.
         device: String,
@@ -94,18 +94,18 @@ pub enum ExperimentError {
     /// An option of a system needs what the device lacks.
     #[error("{option} {value} of {system} needs {feature}, which {device} lacks")]
     OptionNeedsFeature {
-        /// The system.
+        /// Name of the system.
         system: &'static str,
-        /// The option.
+        /// Name of the option.
         option: &'static str,
-        /// Its value.
+        /// Value of the option.
         value: Value,
-        /// The feature.
+        /// Missing feature.
         feature: Feature,
         /// Name of the device.
         device: String,
     },
-    /// Memory does not hold an image.
+    /// The memory cannot hold an image.
     #[error(
         "an image of {} x {} pixels takes {} ({bytes_per_pixel} bytes a pixel), and {memory} has {}",
         size[0], size[1],
@@ -115,23 +115,23 @@ pub enum ExperimentError {
     ImageTooLarge {
         /// Width and height, pixels.
         size: [u32; 2],
-        /// Bytes that each pixel takes there.
+        /// Bytes that each pixel takes in this memory.
         bytes_per_pixel: u64,
-        /// Bytes that there are.
+        /// Available bytes.
         available: u64,
-        /// Whose memory it is.
+        /// Owner of the memory.
         memory: Holder,
     },
-    /// Camera rays that are drawn, and a camera with a lens.
+    /// Camera rays cannot be drawn for a camera with a lens.
     #[error("primary {primary} draws through a pinhole, and the camera has a lens")]
     Pinhole {
         /// Value of the option `primary`.
         primary: &'static str,
     },
-    /// First hits were asked of a structure that has none.
+    /// First hits were asked of a structure that does not have them.
     #[error("primary fragments: {structure} has no view of the camera to take them from")]
     NoFirstHits {
-        /// The structure.
+        /// Name of the structure.
         structure: &'static str,
     },
     /// Shadow maps cannot answer the shadow rays of an image.
@@ -140,49 +140,49 @@ pub enum ExperimentError {
     /// Shadow maps cannot be made.
     #[error("occluder shadow-maps: {source}")]
     ShadowMaps {
-        /// Points on each emitting triangle that have maps.
+        /// Number of points with maps on each emitting triangle.
         points: u32,
-        /// Cause.
+        /// Cause of the failure.
         source: FrameError,
     },
     /// The reference has no such integrator.
     #[error("images are compared with the reference, which has the integrators {known}")]
     NoReference {
-        /// Names of those that it has.
+        /// Names of the integrators that the reference has.
         known: String,
     },
-    /// Parts that move were asked of a scene whose triangles are others in each frame.
+    /// Moving parts were asked of a scene whose triangles differ in each frame.
     #[error("a scene whose triangles are others in each frame has no part that stands still")]
     NoStillPart,
-    /// A scene is to be posed that was not made to move.
+    /// The scene to be posed was not uploaded as one that moves.
     #[error("a scene is to be posed that was not made to move")]
     NotPosed,
-    /// A set has no such ray.
+    /// The set has no ray of this index.
     #[error("there is no ray {index} in {set}, which has {rays}")]
     NoSuchRay {
-        /// Its number, from 0.
+        /// Index of the ray, from 0.
         index: u32,
-        /// The set.
+        /// Name of the set.
         set: String,
-        /// Rays of the set.
+        /// Number of rays in the set.
         rays: usize,
     },
-    /// Hits that were given are not one for each ray.
+    /// The number of given hits is not the number of rays.
     #[error("{name} has {hits} hits for the {rays} rays of {set}")]
     HitCount {
-        /// Whose hits they are.
+        /// Name of the program or file that gave the hits.
         name: String,
-        /// Hits given.
+        /// Number of hits given.
         hits: usize,
-        /// Rays of the set.
+        /// Number of rays in the set.
         rays: usize,
-        /// The set.
+        /// Name of the set.
         set: String,
     },
-    /// The folder for temporary files takes none.
+    /// The folder for temporary files does not accept a file.
     #[error("{}: cannot be written: {source}", path.display())]
     TemporaryFile {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
         /// Error of the operating system.
         source: io::Error,
@@ -190,13 +190,13 @@ pub enum ExperimentError {
     /// The device does not have the triangles of a hard case.
     #[error("the triangles of {case} are not the same on the device")]
     OtherTriangles {
-        /// The case.
+        /// Name of the case.
         case: String,
     },
     /// The validation layer found a defect.
     #[error("the validation layer says: {message}")]
     Validation {
-        /// Its first message.
+        /// First message of the layer.
         message: String,
     },
     /// Entries were missing from a traced structure.
@@ -218,21 +218,21 @@ pub enum ExperimentError {
     /// An image lacks pixels.
     #[error("the image '{image}' has {pixels} of {expected} pixels")]
     MissingPixels {
-        /// The image.
+        /// Name of the image.
         image: &'static str,
-        /// Pixels that it has.
+        /// Number of pixels of the image.
         pixels: usize,
-        /// Pixels that it should have.
+        /// Expected number of pixels.
         expected: usize,
     },
 }
 
-/// Whose memory does not hold an image.
+/// Owner of the memory that cannot hold an image.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Holder {
-    /// The device's.
+    /// Memory of the device.
     Device,
-    /// The host's, which a software device shares.
+    /// Memory of the host, which a software device shares.
     Host,
 }
 
@@ -245,23 +245,23 @@ impl std::fmt::Display for Holder {
     }
 }
 
-/// Why shadow maps cannot answer the shadow rays of an image.
+/// Reason for which shadow maps cannot answer the shadow rays of an image.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum OccluderError {
-    /// Blended surfaces.
+    /// The scene has blended surfaces.
     #[error("surfaces of this scene let light pass, and maps do not say which lie on a ray")]
     Blended,
-    /// Panes of glass.
+    /// The scene has panes of glass.
     #[error("panes of this scene let light pass, and maps do not say which lie on a ray")]
     Panes {
-        /// True if the integrator has an option that makes their shadows opaque.
+        /// True if the integrator has an option that makes the panes' shadows opaque.
         can_be_opaque: bool,
     },
-    /// No shadow rays.
+    /// The integrator traces no shadow rays.
     #[error("the integrator {integrator} sends no ray to a light")]
     NoShadowRays {
-        /// The integrator.
+        /// Name of the integrator.
         integrator: &'static str,
     },
     /// Light passes back faces.

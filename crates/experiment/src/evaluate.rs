@@ -1,4 +1,4 @@
-//! Hits against the oracle, and how their errors in t are distributed.
+//! Evaluation of hits against the oracle, and the distribution of their errors in t.
 
 use rasray_ads::{Hit, PRIMITIVE_UNKNOWN, StructureKind};
 use rasray_metrics::{DeviceHit, HitConfusion, common_hits};
@@ -8,10 +8,10 @@ use crate::error::ExperimentError;
 use rasray_report::Accuracy;
 use rasray_report::figures::DepthErrors;
 
-/// |dt| / t up to which a fragment structure may report another triangle: hits on one plane.
+/// Largest |dt| / t at which a fragment structure may report another triangle: hits on one plane.
 const FRAGMENT_TOLERANCE: f64 = 1.0e-5;
 
-/// Hits as the metrics know them; a miss is absent.
+/// Converts hits to the form of the metrics, in which a miss is absent.
 pub fn device_hits(hits: impl IntoIterator<Item = Hit>) -> Vec<Option<DeviceHit>> {
     hits.into_iter()
         .map(|hit| {
@@ -23,7 +23,7 @@ pub fn device_hits(hits: impl IntoIterator<Item = Hit>) -> Vec<Option<DeviceHit>
         .collect()
 }
 
-/// Counts what of the hits is wrong.
+/// Counts the errors of the hits.
 pub(super) fn accuracy(
     kind: StructureKind,
     verdicts: &[Verdict],
@@ -37,7 +37,7 @@ pub(super) fn accuracy(
     Ok(Accuracy::from(&confusion))
 }
 
-/// The histogram of |dt|/t of a run.
+/// Makes the histogram of |dt|/t of a run.
 pub(super) fn depth_errors(run: usize, verdicts: &[Verdict], hits: &[Option<DeviceHit>]) -> DepthErrors {
     let mut errors = DepthErrors { run, zero: 0, bins: vec![0; DepthErrors::BINS] };
     for (truth, found) in common_hits(verdicts, hits) {
@@ -47,7 +47,7 @@ pub(super) fn depth_errors(run: usize, verdicts: &[Verdict], hits: &[Option<Devi
         }
         let relative = (f64::from(found) - truth).abs() / truth.abs();
         let place = (relative.log10() - DepthErrors::LOW) / DepthErrors::WIDTH;
-        // A cast saturates, and takes NaN (of 0 / 0) to the first bin.
+        // The cast saturates, and takes NaN (from 0 / 0) to the first bin.
         errors.bins[(place.floor() as usize).min(DepthErrors::BINS - 1)] += 1;
     }
     errors
@@ -76,7 +76,8 @@ mod tests {
         let hits = [hit(1.0), hit(1.015_625), hit(1.0 + 1.0 / 8_388_608.0), hit(1.0e30), None, hit(0.1)];
         let errors = depth_errors(3, &verdicts, &hits);
         assert_eq!((errors.run, errors.zero, errors.bins.iter().sum::<u64>()), (3, 2, 3));
-        // 10^-1.806 and 10^-6.924 in bins of a quarter decade from 10^-9, and what lies beyond the last.
+        // The errors are 10^-1.806 and 10^-6.924, in bins of a quarter decade from 10^-9, and one error
+        // beyond the last bin.
         assert_eq!((errors.bins[28], errors.bins[8], errors.bins[39]), (1, 1, 1));
     }
 

@@ -1,4 +1,4 @@
-//! An image to make, as plain data.
+//! Frame, the image to make, as plain data.
 
 use rasray_frame::Adaptive;
 use rasray_integrators::IntegratorSpec;
@@ -7,24 +7,24 @@ use rasray_report::Run;
 use rasray_scene::needs::Workload;
 use rasray_scene::{BackFaces, Sampler};
 
-/// An image to make.
+/// Image to make.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Frame {
-    /// The integrator with its options.
+    /// Integrator with its options.
     pub integrator: IntegratorSpec,
-    /// Pixels a row, at least 1.
+    /// Width in pixels, at least 1.
     pub width: u32,
-    /// Rows, at least 1.
+    /// Height in pixels, at least 1.
     pub height: u32,
     /// Samples per pixel, at least 1.
     pub spp: u32,
-    /// Rule for the number of them that a pixel gets; absent: all.
+    /// Rule for the number of samples that a pixel gets; absent if each gets all.
     pub adaptive: Option<Adaptive>,
     /// Seed of all random numbers.
     pub seed: u32,
     /// Source of random numbers.
     pub sampler: Sampler,
-    /// Method of first hits.
+    /// Method that finds first hits.
     pub primary: Primary,
     /// Occluder of shadow rays.
     pub occluder: OccluderKind,
@@ -35,26 +35,26 @@ pub struct Frame {
 /// Method that finds the hits of camera rays.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Primary {
-    /// Rays are traced through the structure.
+    /// Traces rays through the structure.
     #[default]
     Trace,
-    /// Triangles are drawn, whatever the structure stores, and tested at each pixel's ray.
+    /// Draws triangles, whatever the structure stores, and tests them at each pixel's ray.
     Raster,
-    /// The nearest fragment of the pixel's cell in the structure's view of the camera, for those that have
-    /// one.
+    /// Takes the nearest fragment of the pixel's cell in the structure's view of the camera, if the structure
+    /// has one.
     Fragments,
 }
 
 impl Primary {
-    /// All of them.
+    /// All methods.
     pub const ALL: [Self; 3] = [Self::Trace, Self::Raster, Self::Fragments];
 
-    /// The one of that name.
+    /// Returns the method with this name.
     pub fn named(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|primary| primary.name() == name)
     }
 
-    /// Its name on the command line and in reports.
+    /// Returns the name on the command line and in reports.
     pub fn name(self) -> &'static str {
         match self {
             Self::Trace => "trace",
@@ -63,7 +63,7 @@ impl Primary {
         }
     }
 
-    /// Description, one line of help.
+    /// Returns the description, one line of help.
     pub fn doc(self) -> &'static str {
         match self {
             Self::Trace => "Rays are traced through the structure",
@@ -81,38 +81,40 @@ impl Primary {
 /// Occluder of shadow rays.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum OccluderKind {
-    /// The structure that all other rays are traced through.
+    /// Structure that all other rays are traced through.
     #[default]
     Structure,
-    /// A shadow map of each light without extent, and of points on emitting triangles; other rays are traced.
+    /// Shadow maps for each light without extent, and for points on emitting triangles; other rays are
+    /// traced.
     ShadowMaps {
-        /// Texels along a side.
+        /// Number of texels along a side of a map.
         resolution: u32,
-        /// Points on each emitting triangle that have maps; 0: rays to these are traced.
+        /// Number of points on each emitting triangle that have maps; with 0 the rays to these triangles are
+        /// traced.
         points: u32,
     },
 }
 
 impl OccluderKind {
-    /// Fewest and most texels along a side of a map.
+    /// Smallest and largest number of texels along a side of a map.
     pub const RESOLUTIONS: [u32; 2] =
         [rasray_shadow_maps::Config::LEAST_TEXELS, rasray_shadow_maps::Config::MOST_TEXELS];
 
-    /// All kinds, at the default resolution.
+    /// All kinds of occluders, with the default resolution.
     pub const ALL: [Self; 2] = [
         Self::Structure,
         Self::ShadowMaps { resolution: rasray_shadow_maps::Config::DEFAULT_TEXELS, points: 0 },
     ];
 
-    /// Most points on an emitting triangle.
+    /// Largest number of points on an emitting triangle.
     pub const MOST_POINTS: u32 = rasray_shadow_maps::Config::MOST_POINTS;
 
-    /// The one of that name, at the default resolution.
+    /// Returns the kind with this name, with the default resolution.
     pub fn named(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|occluder| occluder.name() == name)
     }
 
-    /// Its name on the command line and in reports.
+    /// Returns the name on the command line and in reports.
     pub fn name(self) -> &'static str {
         match self {
             Self::Structure => "structure",
@@ -120,7 +122,7 @@ impl OccluderKind {
         }
     }
 
-    /// Description, one line of help.
+    /// Returns the description, one line of help.
     pub fn doc(self) -> &'static str {
         match self {
             Self::Structure => "Rays are traced through the structure",
@@ -131,7 +133,7 @@ impl OccluderKind {
         }
     }
 
-    /// Texels along a side of a map; absent where there is none.
+    /// Returns the number of texels along a side of a map; `None` without maps.
     pub fn resolution(self) -> Option<u32> {
         match self {
             Self::Structure => None,
@@ -139,7 +141,7 @@ impl OccluderKind {
         }
     }
 
-    /// Points on each emitting triangle that have maps; absent where there are none.
+    /// Returns the number of points on each emitting triangle that have maps; `None` without maps.
     pub fn points(self) -> Option<u32> {
         match self {
             Self::ShadowMaps { points, .. } if points > 0 => Some(points),
@@ -148,24 +150,24 @@ impl OccluderKind {
     }
 }
 
-/// Parts of a structure that a picture builds where the scene has moved since the one before.
+/// Parts of a structure that a picture builds if the scene has moved since the picture before.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Refresh {
-    /// All of it.
+    /// The whole structure.
     #[default]
     All,
-    /// The part that moves; what stands still is a part of its own, built once.
+    /// The moving part; everything else is a part of its own, built once.
     Moving,
-    /// As [`Self::Moving`], with a part for each object that its node alone moves, built in frames in which
-    /// it moves.
+    /// The moving part as in [`Self::Moving`], with a part for each object that only its node moves, built in
+    /// the frames in which the object moves.
     Objects,
 }
 
 impl Refresh {
-    /// All of them.
+    /// All choices.
     pub const ALL: [Self; 3] = [Self::All, Self::Moving, Self::Objects];
 
-    /// Its name on the command line and in reports.
+    /// Returns the name on the command line and in reports.
     pub fn name(self) -> &'static str {
         match self {
             Self::All => "all",
@@ -174,7 +176,7 @@ impl Refresh {
         }
     }
 
-    /// Description, one line of help.
+    /// Returns the description, one line of help.
     pub fn doc(self) -> &'static str {
         match self {
             Self::All => "Everything",
@@ -191,7 +193,7 @@ impl Refresh {
 }
 
 impl Frame {
-    /// Adds to a run what was asked for.
+    /// Adds the settings of the frame to a run.
     pub(crate) fn describe(&self, run: &mut Run) {
         run.integrator = Some(self.integrator.name().to_owned());
         run.width = Some(self.width);
@@ -210,13 +212,13 @@ impl Frame {
         run.integrator_options = rasray_report::options(texts);
     }
 
-    /// About how many rays the image takes: one per sample, and one per bounce of each.
+    /// Estimates the number of rays of the image: one per sample, and one per bounce of each sample.
     pub fn rays(&self) -> u64 {
         let bounces = self.integrator.get("bounces").and_then(Value::whole).unwrap_or(0);
         u64::from(self.width) * u64::from(self.height) * u64::from(self.spp) * (1 + u64::from(bounces))
     }
 
-    /// Work of an image like this one on a scene.
+    /// Returns the work of an image like this one on a scene.
     pub fn workload(&self) -> Workload {
         self.integrator.workload()
     }

@@ -1,4 +1,4 @@
-//! The images of a picture in addition to its colours.
+//! Images of a picture in addition to its colours.
 
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
@@ -16,8 +16,8 @@ use crate::motion::{TrianglesBefore, motion};
 use crate::progressive_image::ProgressiveImage;
 use crate::render_job::Pixels;
 
-/// The images in addition to the colours of `pixels`; `before` are the triangles of the frame before. Each is
-/// made band by band, so that nothing is kept of a pixel but what is wanted.
+/// Makes the images in addition to the colours of `pixels`; `before` are the triangles of the frame before.
+/// Each image is made band by band, so that only the wanted values of a pixel are kept.
 pub(super) fn further_images(
     device: &Device,
     job: &RenderJob<'_>,
@@ -72,7 +72,7 @@ pub(super) fn further_images(
         direct.image().film().read_bands(device, take)?;
     }
     if aovs.contains(Aov::Samples) {
-        // The sums of a share keep theirs.
+        // The sums of a share need the counts as well, so they are copied for a share.
         let counts = if job.shard.is_some() { pixels.counts.clone() } else { pixels.counts.take() };
         images.insert(Aov::Samples, AovImage::Whole(counts.unwrap_or_default()));
     }
@@ -80,9 +80,9 @@ pub(super) fn further_images(
 }
 
 impl ProgressiveImage {
-    /// Makes the images [`Aov::FOR_DENOISING`], which a denoiser is fed with beside the colours, of the scene
-    /// and the structure that it renders, as a render has them: one entry per pixel, rows from the top. The
-    /// scene was uploaded with what these need ([`AovSelection::needs`](crate::AovSelection::needs)).
+    /// Makes the images [`Aov::FOR_DENOISING`], which a denoiser takes beside the colours, from the scene and
+    /// the structure of the render: one entry per pixel, rows from the top. The scene must be uploaded with
+    /// the data that these images need ([`AovSelection::needs`](crate::AovSelection::needs)).
     ///
     /// # Errors
     /// The device fails, or rays have no answer.
@@ -102,7 +102,7 @@ impl ProgressiveImage {
     }
 }
 
-/// Adds a band of rays through pixels' centres to an image that is of these alone.
+/// Adds a band of rays through pixels' centres to an image that is only of these rays.
 fn add_centres(
     aov: Aov,
     image: &mut AovImage,
@@ -125,8 +125,8 @@ fn add_centres(
     }
 }
 
-/// Renders the picture of light that is scattered at most once: the same paths with the same random numbers
-/// end earlier, so that what it lacks is what the others gather later.
+/// Renders the picture of light that is scattered at most once: the paths of the picture, with the same
+/// random numbers, end earlier, so that the difference is the light that later scatterings gather.
 fn direct_light(
     device: &Device,
     job: &RenderJob<'_>,

@@ -1,4 +1,4 @@
-//! A hard case through all systems, compared with the oracle and with the target of the case.
+//! Comparison of all systems on a hard case with the oracle and with the target of the case.
 
 use glam::DVec3;
 use rasray_ads::{Hit, StructureKind};
@@ -30,7 +30,7 @@ pub(super) fn hard(
     let placed = Placed::new(&case.triangles);
     let scene = placed.scene(case);
     let camera = case_camera(case.eye);
-    // Relative to the world's own origin, so that positions are those of the case bit for bit.
+    // The frame origin is the world's own origin, so that positions are those of the case bit for bit.
     let stage = DeviceScene::around(device, &scene, DVec3::ZERO, &camera, [1, 1], job.seed, &Needs::all())?;
     check_positions(device, &stage, case, &placed)?;
     if let Some(index) = job.replay {
@@ -45,7 +45,7 @@ pub(super) fn hard(
         verdicts: oracle.closest_batch(&case.rays),
     };
     let mut comparison = Comparison::default();
-    // In a run of many cases the one that takes long is named.
+    // Progress names the case, so that a slow one is recognised in a run of many cases.
     let mut of_case = |step: Progress<'_>| {
         let task = format!("{}, {}", case.id, step.task);
         progress(Progress { task: &task, ..step })
@@ -80,12 +80,12 @@ pub(super) fn hard(
         run.hard = Some(hard_record(case, answer.kind, &measured, dt, run.options.get("resolution")));
     }
     let done = comparison.runs.len() as u64;
-    // Nothing follows that an early end could spare.
+    // An early end is ignored here, because nothing follows that it could save.
     _ = progress(Progress { task: case.id, done, total: done, unit: "runs" });
     Ok(comparison)
 }
 
-/// That the device has the case's triangles and no others, bit for bit.
+/// Checks that the device has the case's triangles and no others, bit for bit.
 fn check_positions(
     device: &Device,
     stage: &DeviceScene,

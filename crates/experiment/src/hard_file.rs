@@ -1,4 +1,4 @@
-//! Hard cases that are files: whether a loader refuses them, or reads them, as stated.
+//! Hard cases that are files: checks that a loader refuses or reads them, as stated.
 
 use crate::error::ExperimentError;
 use rasray_hard_cases::{HardFile, Loading};
@@ -8,10 +8,10 @@ use rasray_scene_files::LoadOptions;
 /// System and preset of the run of a file.
 pub(super) const LOADER: (&str, &str) = ("loader", "file");
 
-/// Loads a file that must be refused, or read as stated: a run with its verdict.
+/// Loads a file that must be refused, or must be read as stated, and makes a run with the verdict.
 ///
 /// # Errors
-/// The folder for temporary files takes none.
+/// The folder for temporary files does not accept a file.
 pub fn compare_file(file: &HardFile) -> Result<Run, ExperimentError> {
     let failed = |source| ExperimentError::TemporaryFile { path: std::env::temp_dir(), source };
     let folder = tempfile::Builder::new().prefix("rasray-").tempdir().map_err(failed)?;
@@ -19,7 +19,7 @@ pub fn compare_file(file: &HardFile) -> Result<Run, ExperimentError> {
     std::fs::write(&place, &file.bytes).map_err(failed)?;
     let loaded = rasray_scene_files::load(&place, &LoadOptions::default());
     let reason = match &loaded {
-        // The folder's name says nothing to anybody.
+        // The name of the temporary folder is meaningless to a reader and is left out.
         Err(error) => format!(
             "refused: {}",
             error.to_string().replace(&*folder.path().to_string_lossy(), "").trim_start_matches('/')

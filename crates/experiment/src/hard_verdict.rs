@@ -1,4 +1,4 @@
-//! From counts to a verdict: whether a run met what a hard case demands of its kind of structure.
+//! Verdict on a run: whether its counts meet the demand of a hard case on the kind of structure.
 
 use rasray_ads::StructureKind;
 use rasray_hard_cases::{HardCase, Target};
@@ -9,10 +9,10 @@ use rasray_report::HardRecord;
 
 use crate::measured::Measured;
 
-/// The largest |dt| / t of a run, and what its case bounds it by for structures that find triangles.
+/// Largest |dt| / t of a run, and the bound of the case for structures that find triangles.
 type LargestDt = Option<(f64, f64)>;
 
-/// Record of a run on a case for the report; `resolution` is the run's option of that name.
+/// Makes the record of a run on a case for the report; `resolution` is the run's option of that name.
 pub(super) fn hard_record(
     case: &HardCase,
     kind: StructureKind,
@@ -39,7 +39,7 @@ pub(super) fn hard_record(
     }
 }
 
-/// True if the target was met, absent where one run cannot tell; and the reason.
+/// Returns true if the target was met, `None` if one run cannot tell, and the reason.
 fn verdict(
     target: Target,
     kind: StructureKind,
@@ -63,11 +63,11 @@ fn verdict(
         return (Some(false), format!("{non_finite} hits have a t that is no number"));
     }
     match target {
-        // Such a case is not about the hits that a fragment structure leaves out.
+        // Such a case does not test the hits that a fragment structure leaves out.
         Target::Exact if kind == StructureKind::Fragment => {
             (Some(rejected_hits == 0), format!("{rejected_hits} of {hits} hits are wrong"))
         }
-        // Bounds of what a paper's rules lose stand with the tests.
+        // The tests hold the bounds of the losses by a paper's rules.
         Target::NoneMissed | Target::Exact if kind == StructureKind::LossyPrimitive => {
             (None, format!("{share}; {lost} rays are lost; the rules that were chosen promise none"))
         }

@@ -1,4 +1,4 @@
-//! Checks that an image fits the memory of device and host, before anything is made.
+//! Checks that an image fits into the memory of device and host, before anything is made.
 
 use rasray_gpu::Device;
 use rasray_integrators::FilmPixel;
@@ -6,7 +6,7 @@ use rasray_integrators::FilmPixel;
 use crate::error::{ExperimentError, Holder};
 use crate::jobs::{Aov, AovSelection, Frame};
 
-/// Bytes per pixel.
+/// Bytes per pixel on device and host.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct PerPixel {
     device: u64,
@@ -19,11 +19,12 @@ const COLOUR: u64 = size_of::<[f32; 3]>() as u64;
 /// Bytes per pixel of the pilot of adaptive samples: mean, squares, sum, and two numbers of samples.
 const PILOT: u64 = 5 * NUMBER;
 
-/// Bytes per pixel whose variance is measured: of each channel mean, squares, sum and number of its samples.
+/// Bytes per pixel whose variance is measured: mean, squares, sum and number of samples for each channel.
 const MOMENTS: u64 = 3 * 4 * NUMBER;
 
 impl PerPixel {
-    /// Memory of an image with these further images; with sums where it is a share of the samples.
+    /// Returns the memory per pixel of an image with these additional images, and with sums if the image is a
+    /// share of the samples.
     fn of(aovs: AovSelection, is_adaptive: bool, has_sums: bool) -> Self {
         let total =
             |kept: &[(bool, u64)]| kept.iter().filter(|(is_kept, _)| *is_kept).map(|(_, bytes)| bytes).sum();
@@ -41,12 +42,12 @@ impl PerPixel {
     }
 }
 
-/// Memory that there is, bytes.
+/// Available memory, bytes.
 #[derive(Clone, Copy, Debug)]
 struct There {
-    /// Memory of the device; absent where it is the host's.
+    /// Memory of the device; absent if the device uses the host's.
     device: Option<u64>,
-    /// Memory of the host; absent where it is not known.
+    /// Memory of the host; absent if it is not known.
     host: Option<u64>,
 }
 
@@ -57,7 +58,7 @@ impl There {
     }
 
     /// # Errors
-    /// An image with so many pixels does not fit.
+    /// The memory cannot hold an image with this number of pixels.
     fn check(self, [width, height]: [u32; 2], per_pixel: PerPixel) -> Result<(), ExperimentError> {
         let pixels = u64::from(width) * u64::from(height);
         let refused = |bytes_per_pixel, available, memory| {
@@ -75,10 +76,10 @@ impl There {
     }
 }
 
-/// Refuses an image that the memory of the device, or that of the host, does not hold.
+/// Refuses an image that the memory of the device or of the host cannot hold.
 ///
 /// # Errors
-/// Says how large it may be.
+/// The image is too large; the error gives the largest size.
 pub(crate) fn check(
     device: &Device,
     frame: &Frame,
@@ -89,15 +90,15 @@ pub(crate) fn check(
     There::of(device).check([frame.width, frame.height], per_pixel)
 }
 
-/// Bytes that a process may still take, where the system says so: those that are free or can be made so, and
-/// no more than the limit of its group.
+/// Returns the bytes that the process may still allocate, if the system tells: free or reclaimable bytes, at
+/// most the limit of the process's group.
 fn available_to_host() -> Option<u64> {
     let free = std::fs::read_to_string("/proc/meminfo").ok().and_then(|text| available(&text))?;
     let limit = std::fs::read_to_string("/sys/fs/cgroup/memory.max").ok();
     Some(limit.and_then(|text| text.trim().parse().ok()).map_or(free, |limit: u64| free.min(limit)))
 }
 
-/// `MemAvailable` of `/proc/meminfo`, bytes.
+/// Reads `MemAvailable` of `/proc/meminfo`, bytes.
 fn available(text: &str) -> Option<u64> {
     let line = text.lines().find_map(|line| line.strip_prefix("MemAvailable:"))?;
     let kibibytes: u64 = line.trim().strip_suffix("kB")?.trim().parse().ok()?;
@@ -115,7 +116,7 @@ mod tests {
     fn an_image_that_does_not_fit_is_refused_with_the_size_that_does() {
         let size = [8192, 8192];
         let check = |device, host| There { device, host }.check(size, PLAIN);
-        // 64 Mi pixels: 1 GiB on the device, three quarters of one on the host.
+        // An image of 64 Mi pixels takes 1 GiB on the device and three quarters of one on the host.
         assert!(check(Some(GIBIBYTE), Some(GIBIBYTE)).is_ok());
         assert!(check(None, Some(2 * GIBIBYTE)).is_ok() && check(None, None).is_ok());
         let device = check(Some(GIBIBYTE / 2), None).expect_err("the device is too small");

@@ -1,4 +1,4 @@
-//! Images of the systems against the naive reference with the same random numbers.
+//! Images of the systems against the naive reference with equal random numbers.
 
 use rasray_metrics as metrics;
 use rasray_reference::integrators::{INTEGRATORS, Image, NaiveIntegrator};
@@ -15,7 +15,7 @@ use crate::render_job::{Kept, render_pixels};
 use rasray_report::figures::{Images, SystemImage};
 use rasray_report::{ImageError, PassOf, Run};
 
-/// The reference image of a frame; absent for integrators that it does not have.
+/// Renders the reference image of a frame; `None` for integrators that the reference does not have.
 fn reference_image(
     scene: &PosedScene<'_>,
     view: &View,
@@ -25,7 +25,7 @@ fn reference_image(
     Ok(Some(naive.render(scene, view, &frame.integrator.values())?))
 }
 
-/// Error of an image against the reference, as a whole and, where wanted, in each pixel.
+/// Computes the error of an image against the reference, as a whole and, if wanted, in each pixel.
 fn image_error(
     frame: &Frame,
     test: &[[f32; 3]],
@@ -54,11 +54,11 @@ fn image_error(
     Ok((error, map))
 }
 
-/// System and preset of the run of the reference with another seed.
+/// Names that stand for system and preset in the run of the reference with another seed.
 pub(super) const NOISE: (&str, &str) = ("reference", "another-seed");
 
-/// Renders the frame through each system whose image is wanted and compares it with the reference. A run
-/// named `reference` is the reference with another seed: what noise alone makes of the same numbers.
+/// Renders the frame through each system whose image is wanted and compares it with the reference. The run
+/// named `reference` is the reference with another seed: it shows the errors that noise alone causes.
 pub(super) fn compare_images(
     setting: &Setting<'_>,
     comparison: &mut Comparison,
@@ -95,7 +95,7 @@ pub(super) fn compare_images(
         Ok::<_, ExperimentError>(end)
     };
     for (place, config) in systems() {
-        // Images are taken as renders are: from a structure built around the camera.
+        // Images are rendered as by a render job: through a structure built around the camera.
         let spec = config.spec()?;
         let mut built = Built::new(device, &spec, &stage.scene, stage.scene.eye())?;
         for _ in 0..job.repetitions {
@@ -133,7 +133,7 @@ pub(super) fn compare_images(
             preset: NOISE.1.to_owned(),
             ..Run::default()
         };
-        // It traces all rays.
+        // The reference traces all rays.
         let (primary, occluder) = (Primary::Trace, OccluderKind::Structure);
         Frame { seed: other.seed, primary, occluder, ..frame.clone() }.describe(&mut run);
         _ = add(of_noise, run, noise.pixels)?;

@@ -1,4 +1,4 @@
-//! Jobs and results as plain data.
+//! Jobs and their results as plain data.
 
 pub use crate::aov::{Aov, AovImage, AovSelection};
 pub use crate::frame::{Frame, OccluderKind, Primary, Refresh};
@@ -15,56 +15,57 @@ use rasray_scene::{Camera, Moment, Scene};
 use serde_json::Value;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// One image of one system.
+/// Job that renders one image through one system.
 #[derive(Clone, Debug)]
 pub struct RenderJob<'a> {
-    /// The scene to render; lit, and possibly without triangles.
+    /// Scene to render; lit, and possibly without triangles.
     pub scene: &'a Scene,
-    /// When it is shown, where the scene is at rest: the device poses it. Absent: as it is.
+    /// Moment at which the scene is shown, if the scene is at rest and the device poses it; absent if the
+    /// scene is already posed.
     pub moment: Option<&'a Moment>,
-    /// From where.
+    /// Camera from which the scene is seen.
     pub camera: Camera,
-    /// Through which structure.
+    /// System with its structure.
     pub system: SystemConfig,
-    /// Parts of its structure that the image builds.
+    /// Parts of the structure that the image builds.
     pub refresh: Refresh,
-    /// The image.
+    /// Image to render.
     pub frame: Frame,
-    /// Its samples to make; absent: all.
+    /// Share of the samples to make; absent for all.
     pub shard: Option<Shard>,
-    /// Images wanted in addition.
+    /// Additional images that are wanted.
     pub aovs: AovSelection,
-    /// The frame before, where the device poses the scene; for [`Aov::Motion`], which is not there without.
+    /// Frame before, if the device poses the scene; needed for [`Aov::Motion`].
     pub before: Option<FrameBefore>,
     /// Data that is uploaded, compiled in and stored; everything with `--needs all`.
     pub needs: Needs,
-    /// Builds that are timed after the first; with none there is no [`Times::build_ms`].
+    /// Number of builds that are timed after the first; with 0, [`Times::build_ms`] is absent.
     pub repetitions: u32,
 }
 
 /// Source of the rays of a comparison.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RaySet {
-    /// Origins uniform in the scene's box, directions uniform.
+    /// Random rays: origins uniform in the scene's box, directions uniform.
     Incoherent,
-    /// The camera's rays; the camera is not at the views' centre.
+    /// Camera rays; the camera is not at the views' centre.
     Camera,
-    /// From the views' centre.
+    /// Rays from the views' centre.
     Eye,
-    /// Diffuse directions from what the camera sees.
+    /// Diffuse directions from the surfaces that the camera sees.
     Bounce,
-    /// Mirrored directions from there.
+    /// Mirrored directions from the surfaces that the camera sees.
     Specular,
-    /// Directions around these, as of a polished surface.
+    /// Directions around the mirrored ones, as from a polished surface.
     Glossy,
-    /// Origins uniform on the triangles, which are not excluded, directions uniform.
+    /// Rays from surfaces: origins uniform on the triangles, which are not excluded, directions uniform.
     Surface,
-    /// Pieces of random lines, each inside one pixel of the camera at the views' centre.
+    /// Segments of random lines, each inside one pixel of the camera at the views' centre.
     Pixel,
 }
 
 impl RaySet {
-    /// All of them.
+    /// All sets.
     pub const ALL: [Self; 8] = [
         Self::Incoherent,
         Self::Camera,
@@ -76,7 +77,7 @@ impl RaySet {
         Self::Pixel,
     ];
 
-    /// Its name on the command line and in reports.
+    /// Returns the name on the command line and in reports.
     pub fn name(self) -> &'static str {
         match self {
             Self::Incoherent => "incoherent",
@@ -90,7 +91,7 @@ impl RaySet {
         }
     }
 
-    /// Description, one line of help.
+    /// Returns the description, one line of help.
     pub fn doc(self) -> &'static str {
         match self {
             Self::Incoherent => "Origins uniform in the scene's box, directions uniform",
@@ -105,52 +106,51 @@ impl RaySet {
     }
 }
 
-/// Systems side by side.
+/// Job that compares systems on a scene.
 #[derive(Clone, Debug)]
 pub struct CompareJob<'a> {
-    /// The scene to trace; lit, and possibly without triangles.
+    /// Scene to trace; lit, and possibly without triangles.
     pub scene: &'a Scene,
-    /// For the ray sets `camera` and `bounce` and for images.
+    /// Camera for the ray sets `camera` and `bounce` and for images.
     pub camera: Camera,
-    /// One entry per system and preset.
+    /// Configurations, one per system and preset.
     pub systems: Vec<SystemConfig>,
-    /// Each makes a run with each system.
+    /// Ray sets, each of which makes a run with each system.
     pub ray_sets: Vec<RaySet>,
-    /// Rays per set, at least 1.
+    /// Number of rays per set, at least 1.
     pub rays: u32,
-    /// Size, seed and integrator; the size also shapes the camera's rays.
+    /// Frame that gives size, seed and integrator; the size also shapes the camera's rays.
     pub frame: Frame,
-    /// True to compare an image of each system with the reference as well.
+    /// True to compare an image of each system with the reference, too.
     pub image: bool,
     /// True to keep pictures and maps for a page.
     pub figures: bool,
     /// True to count the contents of each structure's lists, which reads its pools back.
     pub lists: bool,
-    /// Timed repetitions of every build and every set, at least 1, after one that warms up.
+    /// Number of timed repetitions of every build and every set, at least 1, after one that warms up.
     pub repetitions: u32,
-    /// Rays that another program may have made: one more set, named [`FILE_SET`].
+    /// Rays from a file, which another program may have made: one more set, named [`FILE_SET`].
     pub rays_file: Option<RaysFile>,
     /// Hits found elsewhere, one for each ray of the only set.
     pub hits_files: Vec<HitsFile>,
     /// True to keep rays, truth and hits for files.
     pub keep: bool,
-    /// Instead of comparing: the ray of each set that is replayed step by step, counted from 0.
+    /// Index of the ray of each set, from 0, that is replayed step by step instead of a comparison.
     pub replay: Option<u32>,
     /// Data that is uploaded, compiled in and stored; everything with `--needs all`.
     pub needs: Needs,
-    /// Places of the cells that are made, in the list of [`compare_cells`](crate::compare_cells); absent:
-    /// all.
+    /// Places of the cells to make, in the list of [`compare_cells`](crate::compare_cells); absent for all.
     pub only: Option<BTreeSet<usize>>,
 }
 
-/// Systems side by side on a hard case.
+/// Job that compares systems on a hard case.
 #[derive(Clone, Debug)]
 pub struct HardJob<'a> {
-    /// Triangles, rays, eye and what is known of the answers.
+    /// Hard case: triangles, rays, eye and the known facts about the answers.
     pub case: &'a HardCase,
-    /// One entry per system and preset.
+    /// Configurations, one per system and preset.
     pub systems: &'a [SystemConfig],
-    /// Timed repetitions of every build and of the rays, at least 1, after one that warms up.
+    /// Number of timed repetitions of every build and of the rays, at least 1, after one that warms up.
     pub repetitions: u32,
     /// Seed that the case's rays were drawn with.
     pub seed: u32,
@@ -160,24 +160,24 @@ pub struct HardJob<'a> {
     pub hits_files: &'a [HitsFile],
     /// True to keep rays, truth and hits for files.
     pub keep: bool,
-    /// Instead of comparing: the ray that is replayed step by step, counted from 0.
+    /// Index of the ray, from 0, that is replayed step by step instead of a comparison.
     pub replay: Option<u32>,
-    /// Places of the cells that are made: the systems in their order, then the files of hits; absent: all.
+    /// Places of the cells to make: the systems in their order, then the files of hits; absent for all.
     pub only: Option<BTreeSet<usize>>,
 }
 
 /// Result of a comparison.
 #[derive(Clone, Debug, Default)]
 pub struct Comparison {
-    /// A run per system, preset and ray set, and per image where wanted.
+    /// Runs, one per system, preset and ray set, and per image where wanted.
     pub runs: Vec<Run>,
-    /// The place of the cell of each run: see [`CompareJob::only`].
+    /// Place of the cell of each run, see [`CompareJob::only`].
     pub places: Vec<usize>,
     /// Pictures and maps; empty unless [`CompareJob::figures`] asked for them.
     pub figures: Figures,
     /// Rays and answers; empty unless [`CompareJob::keep`] asked for them.
     pub kept: SavedRays,
-    /// The replay of one ray in words, where [`CompareJob::replay`] asked for it.
+    /// Replay of one ray in words, if [`CompareJob::replay`] asked for it.
     pub replay: Option<String>,
 }
 
@@ -189,97 +189,97 @@ impl Comparison {
     }
 }
 
-/// The ray set of a file.
+/// Name of the ray set from a file.
 pub const FILE_SET: &str = "file";
 
-/// Rays that were traced and their answers.
+/// Rays that were traced, and their answers.
 #[derive(Clone, Debug, Default)]
 pub struct SavedRays {
-    /// The hard case that this is about.
+    /// Name of the hard case; absent for a scene.
     pub case: Option<String>,
-    /// World, metres; rays and triangles are relative to it.
+    /// Frame origin in the world, metres; rays and triangles are relative to it.
     pub frame_origin: [f64; 3],
     /// Corners by global triangle id, metres.
     pub triangles: Vec<[[f32; 3]; 3]>,
-    /// By global triangle id: 0 without a back, 1 where the clockwise side is one that rays may pass, 2 where
-    /// the counter-clockwise one is. Empty for a hard case.
+    /// Backs by global triangle id: 0 without a back, 1 if rays may pass the clockwise side, 2 if they may
+    /// pass the counter-clockwise side. Empty for a hard case.
     pub backs: Vec<u32>,
-    /// One entry a ray set.
+    /// Ray sets with their answers.
     pub sets: Vec<SavedSet>,
 }
 
-/// A ray set with all answers to it.
+/// Ray set with all answers to it.
 #[derive(Clone, Debug)]
 pub struct SavedSet {
-    /// Such as `camera`.
+    /// Name of the set, such as `camera`.
     pub name: String,
-    /// As they were traced.
+    /// Rays as they were traced.
     pub rays: Vec<Ray>,
-    /// The oracle's answers, one a ray.
+    /// Answers of the oracle, one per ray.
     pub truth: Vec<TrueHit>,
-    /// The systems' answers.
+    /// Answers of the systems.
     pub answers: Vec<Answers>,
 }
 
-/// The answers of a system to a ray set.
+/// Answers of a system to a ray set.
 #[derive(Clone, Debug)]
 pub struct Answers {
-    /// System and preset, such as `mmrt-robust`; with the options of several values where it takes part with
-    /// several, such as `bvh-robust.leaf=2,children=4`.
+    /// System and preset, such as `mmrt-robust`; for a system that takes part with several values of options
+    /// also these, such as `bvh-robust.leaf=2,children=4`.
     pub name: String,
-    /// Says whether a hit's `a` and `b` are weights of vertices.
+    /// Kind of structure, which tells whether a hit's `a` and `b` are weights of vertices.
     pub kind: StructureKind,
-    /// One a ray.
+    /// Hits, one per ray.
     pub hits: Vec<Hit>,
 }
 
 /// Sums of samples, one entry per pixel, rows from the top.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct FilmSums {
-    /// Linear Rec. 709, W/(sr m^2).
+    /// Sums of samples in linear Rec. 709, W/(sr m^2).
     pub sums: Vec<[f32; 3]>,
-    /// Samples in each sum: those that were made and are finite.
+    /// Number of samples in each sum: those that were made and are finite.
     pub counts: Vec<u32>,
 }
 
-/// Result of a render. Images have `width * height` pixels, rows from the top.
+/// Result of a render. Its images have `width * height` pixels, rows from the top.
 #[derive(Clone, Debug, Default)]
 pub struct RenderOutput {
-    /// Pixels a row.
+    /// Width in pixels.
     pub width: u32,
-    /// Rows.
+    /// Height in pixels.
     pub height: u32,
-    /// Mean over the samples done; linear Rec. 709, W/(sr m^2).
+    /// Mean over the samples done, the colour image; linear Rec. 709, W/(sr m^2).
     pub beauty: Vec<[f32; 3]>,
-    /// Sums of those samples, where [`RenderJob::shard`] asked for a share of them.
+    /// Sums of these samples, if [`RenderJob::shard`] asked for a share.
     pub sums: Option<FilmSums>,
-    /// Those in addition that [`RenderJob::aovs`] asked for.
+    /// Additional images that [`RenderJob::aovs`] asked for.
     pub aovs: BTreeMap<Aov, AovImage>,
-    /// Samples per pixel in `beauty`, of adaptive samples the most that a pixel could get; fewer than asked
-    /// for after an early end.
+    /// Number of samples per pixel in `beauty`, for adaptive samples the most that a pixel could get; less
+    /// than asked for after an early end.
     pub samples_done: u32,
-    /// Sharing of the samples among the pixels, where some got more than others.
+    /// Adaptive sampling, if some pixels got more samples than others.
     pub adaptive: Option<AdaptiveRecord>,
     /// Options of the structure as resolved from preset and command line.
     pub options: BTreeMap<String, Value>,
-    /// Paths taken where the device decides: builder, coverage, atomics.
+    /// Choices that depend on the device: builder, coverage, atomics.
     pub paths: BTreeMap<String, String>,
-    /// Time of each stage, in the order of a frame.
+    /// Times of each stage, in the order of a frame.
     pub stages: Vec<StageTime>,
-    /// Time of each pass.
+    /// Times of each pass.
     pub passes: Vec<Pass>,
-    /// The four figures and the ray rate.
+    /// Times of the figures, and the ray rate.
     pub times: Times,
     /// Spread of repeated times, by the name of their median.
     pub spread: BTreeMap<String, Spread>,
-    /// Bytes.
+    /// Memory of the render, bytes.
     pub memory: Option<Memory>,
     /// Counts that do not depend on the machine.
     pub counters: Option<Counters>,
 }
 
 impl RenderOutput {
-    /// Record of the render for a report.
+    /// Makes the record of the render for a report.
     pub fn run(&self, system: &SystemConfig, frame: &Frame) -> Run {
         let mut run = Run {
             system: system.system.name.to_owned(),

@@ -1,17 +1,17 @@
-//! Traced rays and their answers as files with names.
+//! Named files of traced rays and their answers.
 
 use crate::jobs::SavedRays;
 use rasray_ads::PRIMITIVE_NONE;
 use rasray_ray_files::{hits_to_npy, rays_to_npy, triangles_to_npy, truth_to_npy, words_to_npy, write_rays};
 
-/// A name within a folder, and the bytes of the file.
+/// Name within a folder, and bytes of the file.
 pub type NamedBytes = (String, Vec<u8>);
 
 impl SavedRays {
-    /// Rays and triangles as files: `<set>.rays` and `<set>.npy`, `<set>.exclude.npy` where a ray excludes a
-    /// triangle, `<set>.flags.npy` where a ray passes backs, and `triangles.npy`, which the hard case that
-    /// this is about precedes; `triangles.backs.npy` where a triangle has a back. They are encoded one by one
-    /// as they are asked for.
+    /// Encodes rays and triangles as files: `<set>.rays` and `<set>.npy`, `<set>.exclude.npy` if a ray
+    /// excludes a triangle, `<set>.flags.npy` if a ray passes backs, `triangles.npy` (`<case>.triangles.npy`
+    /// for a hard case), and `triangles.backs.npy` if a triangle has a back. Files are encoded one by one as
+    /// they are asked for.
     pub fn ray_files(&self) -> impl Iterator<Item = NamedBytes> {
         let origin = self.frame_origin;
         let name =
@@ -38,7 +38,7 @@ impl SavedRays {
         triangles.chain(backs).chain(rays).chain(excluding).chain(flagged)
     }
 
-    /// The oracle's answers to each set (`<set>.oracle.npy`) and those of each system
+    /// Encodes the oracle's answers to each set (`<set>.oracle.npy`) and those of each system
     /// (`<set>.<system>-<preset>.npy`, with its [variant](crate::SystemConfig::variant) before the ending
     /// where there are several).
     pub fn hit_files(&self) -> impl Iterator<Item = NamedBytes> {

@@ -1,4 +1,4 @@
-//! Keys of pictures: where two keys are equal, the same program makes the same picture.
+//! Keys of pictures: if two keys are equal, one program makes equal pictures.
 
 use crate::jobs::{Frame, RenderJob};
 use rasray_options::OptionValues;
@@ -6,22 +6,22 @@ use rasray_scene::Camera;
 use rasray_scene_source::{KeyHash, LoadedScene};
 use std::collections::BTreeMap;
 
-/// The key of the picture that a job makes of a scene, 64 hexadecimal digits: a hash of everything that
-/// decides its values. That is the program (`program`: version and commit), the contents of all files read or
-/// the built-in's name, the time, the camera, the system with its options, the integrator, the size, the
-/// samples, the sampler and the seed, and which further images there are.
+/// Computes the key of the picture that a job makes of a scene, 64 hexadecimal digits: a hash of everything
+/// that decides the picture's values. That is the program (`program`: version and commit), the contents of
+/// all files read or the built-in's name, the time, the camera, the system with its options, the integrator,
+/// the size, the samples, the sampler and the seed, and the selection of additional images.
 ///
-/// The device is not in it: between devices, light may differ in its last bits. Neither is which share of the
-/// samples is made: all shares of a picture have the key of the whole.
+/// The key does not depend on the device, although light may differ in its last bits between devices. Neither
+/// does it depend on the share of the samples: all shares of a picture have the key of the whole.
 pub fn picture_key(program: &str, loaded: &LoadedScene, job: &RenderJob<'_>) -> String {
-    // Whoever adds a field decides here whether it changes the picture.
-    // The scene and its moment are those of `loaded`.
+    // This pattern makes whoever adds a field decide whether the field changes the picture. `loaded` stands
+    // for the scene and its moment.
     let RenderJob {
         scene: _,
         moment: _,
         camera,
         system,
-        // Hits are the same.
+        // The refresh does not change hits.
         refresh: _,
         frame,
         shard: _,
@@ -48,7 +48,7 @@ pub fn picture_key(program: &str, loaded: &LoadedScene, job: &RenderJob<'_>) -> 
         .finish()
 }
 
-/// With everything that a scene was made from, and the moment at which it is shown.
+/// Hashes everything that a scene was made from, and the moment at which it is shown.
 pub(crate) fn scene_hash(hash: KeyHash, loaded: &LoadedScene) -> KeyHash {
     hash.with("scene", &loaded.content)
         .with("file", loaded.sha256.as_deref().unwrap_or_default())
@@ -56,13 +56,14 @@ pub(crate) fn scene_hash(hash: KeyHash, loaded: &LoadedScene) -> KeyHash {
         .with("smaller images", format!("{:?}", loaded.smaller_images))
 }
 
-/// Everything of a camera that a picture depends on. Numbers are written so that each reads back as the same.
+/// Writes every property of a camera that a picture depends on. Numbers are written so that each reads back
+/// exactly.
 pub(crate) fn camera_text(camera: &Camera) -> String {
     let Camera { name: _, world_from_camera, projection, aspect_ratio, lens } = camera;
     format!("{world_from_camera:?} {projection:?} {aspect_ratio:?} {lens:?}")
 }
 
-/// Options by name, as they read.
+/// Returns options by name, as they are written.
 pub(crate) fn texts(values: &OptionValues) -> BTreeMap<String, String> {
     values.iter().map(|(name, value)| (name.to_owned(), value.to_string())).collect()
 }

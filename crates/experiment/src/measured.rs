@@ -1,28 +1,28 @@
-//! Hits on a hard case against the oracle and against what is stated of the case.
+//! Hits on a hard case, measured against the oracle and against the statement of the case.
 
 use rasray_ads::StructureKind;
 use rasray_hard_cases::{Answer, HardCase};
 use rasray_metrics::{DeviceHit, HitConfusion, MetricsError, Percentiles, Rate, Truth};
 use rasray_reference::oracle::Verdict;
 
-/// 64 units of rounding: what a hit may differ by beyond the bounds that the oracle derives from the test
-/// itself, relative to t.
+/// Tolerance of a hit relative to t, beyond the bounds that the oracle derives from the test itself: 64 units
+/// of rounding.
 pub const HIT_ROUNDING: f64 = 64.0 / 16_777_216.0;
 
-/// Depth that a fragment may be off by and count as right, relative.
+/// Relative error of depth up to which a fragment counts as right.
 const FRAGMENT_DEPTH: f64 = 1.0e-3;
 
-/// Errors of t that are allowed, relative to t.
+/// Tolerated errors of t, relative to t.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tolerance {
-    /// Up to this a depth counts as right for [`Measured::errors`].
+    /// Largest error at which a depth counts as right for [`Measured::errors`].
     pub depth: f64,
-    /// That of [`Measured::rejected`], beyond the oracle's own bounds.
+    /// Largest error for [`Measured::rejected`], beyond the oracle's own bounds.
     pub rounding: f64,
 }
 
 impl Tolerance {
-    /// Tolerance that the command allows a kind of structure.
+    /// Returns the tolerance that the command allows for a kind of structure.
     pub fn of(kind: StructureKind) -> Self {
         let both = match kind {
             StructureKind::Primitive | StructureKind::LossyPrimitive => HIT_ROUNDING,
@@ -35,41 +35,43 @@ impl Tolerance {
 /// Results of one structure on one case.
 #[derive(Clone, Debug, Default)]
 pub struct Measured {
-    /// Rays that got a hit.
+    /// Number of rays that got a hit.
     pub hits: usize,
-    /// Against the oracle; wrong ids are forgiven where t is right to the tolerance.
+    /// Counts of hits against the oracle; wrong ids are forgiven if t is right to the tolerance.
     pub confusion: HitConfusion,
-    /// Share of the unambiguous rays that was missed, false, or wrong in t beyond the tolerance.
+    /// Share of the unambiguous rays whose answer was missed, false, or wrong in t beyond the tolerance.
     pub errors: Rate,
-    /// Share of the ambiguous rays that got an answer that is not admissible, give or take the tolerance in
-    /// t.
+    /// Share of the ambiguous rays whose answer is not admissible within the tolerance in t.
     pub inadmissible: Rate,
-    /// The first ambiguous ray with such an answer, by index.
+    /// Index of the first ambiguous ray with such an answer.
     pub first_inadmissible: Option<usize>,
-    /// The rays that count in [`Measured::evaluated`], by index.
+    /// Indices of the rays that count in [`Measured::evaluated`].
     pub wrong: Vec<usize>,
-    /// Rays whose answer a structure that finds triangles may not give, by index.
+    /// Indices of the rays whose answer a structure that finds triangles may not give.
     pub rejected: Vec<usize>,
-    /// Those of [`Measured::rejected`] that got a hit, with depths off by the tolerance allowed.
+    /// Indices of the rays in [`Measured::rejected`] that got a hit, with depths off by the tolerance
+    /// allowed.
     pub rejected_hits: Vec<usize>,
-    /// Those of [`Measured::rejected`] with a hit outside of the range of t that is all that is stated.
+    /// Number of rays in [`Measured::rejected`] with a hit outside the range of t, where the case states only
+    /// a range.
     pub out_of_range: usize,
-    /// Rays that a stated answer says hit and that got no hit although a watertight test finds one.
+    /// Number of rays without a hit, although the statement gives a hit that a watertight test finds.
     pub lost: usize,
-    /// Unambiguous and ambiguous rays that are not evaluated: their hits lie outside of what the camera sees.
+    /// Number of unambiguous and ambiguous rays that are not evaluated, because their hits lie outside the
+    /// camera's view.
     pub unseen: usize,
-    /// |dt| / t of the hits on the right triangle.
+    /// Percentiles of |dt| / t over the hits on the right triangle.
     pub dt_right: Option<Percentiles>,
-    /// The ray with the largest of these.
+    /// Index of the ray with the largest |dt| / t of these hits.
     pub farthest_off: Option<usize>,
 }
 
 impl Measured {
-    /// Compares answers, one for each verdict, a miss being absent; ids are the case's. Rays that `is_unseen`
-    /// accepts count in [`Measured::unseen`] and in no rate.
+    /// Compares answers with verdicts, one for each verdict; a miss is absent, and ids are the case's. Rays
+    /// that `is_unseen` accepts count in [`Measured::unseen`] and in no rate.
     ///
     /// # Errors
-    /// There are not as many answers as verdicts.
+    /// The number of answers is not that of the verdicts.
     pub fn of(
         case: &HardCase,
         verdicts: &[Verdict],
@@ -119,7 +121,7 @@ impl Measured {
                             measured.farthest_off = Some(index);
                         }
                     }
-                    // Written so that NaN is wrong.
+                    // The comparison is written so that NaN counts as wrong.
                     !(dt <= tolerance.depth || verdict.admits_hit(hit.primitive, f64::from(hit.t)))
                 }
                 _ => true,
@@ -137,14 +139,14 @@ impl Measured {
         Ok(measured)
     }
 
-    /// The rate that laws bound: that of errors, or of inadmissible answers where every ray of a case is
-    /// ambiguous (surfaces that coincide).
+    /// Returns the rate that laws bound: the rate of errors, or of inadmissible answers if every ray of a
+    /// case is ambiguous (surfaces that coincide).
     pub fn evaluated(&self) -> Rate {
         if self.errors.total > 0 { self.errors } else { self.inadmissible }
     }
 }
 
-/// True if an ambiguous ray may get this answer, on whatever triangle.
+/// True if an ambiguous ray may get this answer, on any triangle.
 fn admissible(verdict: &Verdict, hit: Option<&DeviceHit>, depth_tolerance: f64) -> bool {
     hit.map_or(verdict.miss_allowed, |hit| {
         let (t, slack) = (f64::from(hit.t), depth_tolerance * f64::from(hit.t).abs());

@@ -1,15 +1,15 @@
-//! Position, one frame before, of the point that a pixel shows.
+//! Motion: the position, one frame before, of the point that a pixel shows.
 
 use glam::{DVec2, DVec3};
 use rasray_integrators::{AovPixel, AovSurface};
 use rasray_scene::{Camera, Moment, Projection};
 
-/// The frame before the one that is shown.
+/// Frame before the one that is shown.
 #[derive(Clone, Debug)]
 pub struct FrameBefore {
-    /// When it is.
+    /// Moment of the frame before.
     pub moment: Moment,
-    /// From where it is seen.
+    /// Camera of the frame before.
     pub camera: Camera,
 }
 
@@ -20,7 +20,7 @@ pub(crate) struct TrianglesBefore {
 }
 
 impl TrianglesBefore {
-    /// Earlier position of a point of a triangle; nothing where there is no such triangle.
+    /// Returns the earlier position of a point of a triangle; `None` if there is no such triangle.
     fn point(&self, triangle: u32, [b, c]: [f32; 2]) -> Option<DVec3> {
         let first = 3 * triangle as usize;
         let corners = self.indices.get(first..first + 3)?;
@@ -33,10 +33,10 @@ impl TrianglesBefore {
     }
 }
 
-/// A camera that shows pixels of an image.
+/// Camera with the size of its image.
 struct Screen<'a> {
     camera: &'a Camera,
-    /// Pixels.
+    /// Size of the image, pixels.
     size: DVec2,
     half: DVec2,
 }
@@ -52,8 +52,8 @@ impl<'a> Screen<'a> {
         [axes.x_axis, axes.y_axis, axes.z_axis].map(DVec3::normalize_or_zero)
     }
 
-    /// Place in the image that a direction leads to, pixels from the lower left; nothing beside or behind the
-    /// eye.
+    /// Returns the place in the image of a direction, pixels from the lower left; `None` if the direction is
+    /// beside or behind the eye.
     fn of_direction(&self, direction: DVec3) -> Option<DVec2> {
         let [right, up, back] = self.axes();
         let depth = match self.camera.projection {
@@ -64,13 +64,13 @@ impl<'a> Screen<'a> {
         (depth > 0.0).then(|| 0.5 * (across + 1.0) * self.size)
     }
 
-    /// Place in the image of a point of the world, pixels from the lower left; nothing beside or behind the
-    /// eye.
+    /// Returns the place in the image of a point of the world, pixels from the lower left; `None` if the
+    /// point is beside or behind the eye.
     fn of_point(&self, point: DVec3) -> Option<DVec2> {
         self.of_direction(point - self.camera.world_from_camera.translation)
     }
 
-    /// The direction from which a perspective has light at a place, pixels from the lower left.
+    /// Returns the direction from which a perspective receives light at a place, pixels from the lower left.
     fn direction(&self, place: DVec2) -> DVec3 {
         let [right, up, back] = self.axes();
         let across = (2.0 * place / self.size - 1.0) * self.half;
@@ -78,9 +78,9 @@ impl<'a> Screen<'a> {
     }
 }
 
-/// From each of some pixels, which follow one another from pixel `first` of the image on, to where its point
-/// was: pixels to the right and upwards. What lies at infinity moves with the camera alone. 0 where the point
-/// was beside or behind the eye, or its triangle is not known.
+/// Computes the motion of a run of pixels that begins at pixel `first` of the image, from each pixel to the
+/// earlier place of its point: pixels to the right and upwards. Points at infinity move with the camera
+/// alone. The motion is 0 if the point was beside or behind the eye, or if its triangle is not known.
 pub(crate) fn motion(
     (before, camera): (&FrameBefore, &Camera),
     triangles: &TrianglesBefore,
@@ -109,7 +109,8 @@ mod tests {
     use super::*;
     use rasray_scene::default_view::camera_looking_at;
 
-    /// Looks along -z from the origin over a width and a height of two at a distance of one.
+    /// Makes a camera that looks along -z from the origin over a width and a height of two at a distance of
+    /// one.
     fn camera(eye: DVec3) -> Camera {
         camera_looking_at("test", eye, eye - DVec3::Z, std::f32::consts::FRAC_PI_2)
     }
@@ -127,7 +128,7 @@ mod tests {
             let band = (first, &[pixel; 4][..count], &surfaces[..count]);
             motion((&before, &now), &triangles, DVec3::ZERO, [2, 2], band).collect::<Vec<_>>()
         };
-        // Whatever bands the pixels are in.
+        // The result does not depend on the bands of pixels.
         let whole = moved(0, 4);
         assert_eq!(whole, [moved(0, 1), moved(1, 3)].concat());
         whole
@@ -147,7 +148,7 @@ mod tests {
         leads([0.0; 3], [1.0, 0.5, 0.0], hit, [0.5, 0.25]);
         leads([2.0, 0.0, 0.0], [0.0; 3], hit, [-1.0, 0.0]);
         leads([2.0, 0.0, 0.0], [0.0; 3], sky, [0.0; 2]);
-        // Behind the eye, and of no triangle that there is.
+        // The first point is behind the eye, the second on a triangle that does not exist.
         leads([0.0, 0.0, -9.0], [0.0; 3], hit, [0.0; 2]);
         leads([2.0, 0.0, 0.0], [0.0; 3], AovPixel { primitive: 7, ..hit }, [0.0; 2]);
         let turned = camera_looking_at("test", DVec3::ZERO, DVec3::new(-1.0, 0.0, -1.0), 1.57);

@@ -1,4 +1,4 @@
-//! Scenes on a device that moves them.
+//! Scenes that the device moves.
 
 use std::time::Instant;
 
@@ -14,14 +14,14 @@ use crate::error::ExperimentError;
 use crate::jobs::{Frame, Refresh, RenderJob};
 use crate::passes::Passes;
 
-/// Objects that have parts of their own.
+/// Largest number of objects that have parts of their own.
 const OBJECTS_MOST: usize = 32;
 
 impl DeviceScene {
-    /// As [`DeviceScene::new`], of a scene at rest that [`DeviceScene::pose`] shows at any moment.
+    /// Uploads as [`DeviceScene::new`] a scene at rest that [`DeviceScene::pose`] can show at any moment.
     ///
     /// # Errors
-    /// As [`DeviceScene::new`], and where a scene cannot be posed on the device
+    /// As for [`DeviceScene::new`]; also if the scene cannot be posed on the device
     /// ([`Scene::is_posed_in_place`]).
     pub fn moving(
         device: &Device,
@@ -37,10 +37,10 @@ impl DeviceScene {
         Ok(stage)
     }
 
-    /// The scene of a job as it is shown, and what showing it took.
+    /// Uploads the scene of a job as it is shown, and returns the times of posing.
     ///
     /// # Errors
-    /// As [`DeviceScene::moving`] and [`DeviceScene::pose`].
+    /// As for [`DeviceScene::moving`] and [`DeviceScene::pose`].
     pub(super) fn of_job(device: &Device, job: &RenderJob<'_>) -> Result<(Self, PoseTimes), ExperimentError> {
         let Frame { width, height, seed, .. } = job.frame;
         let Some(moment) = job.moment else {
@@ -48,7 +48,7 @@ impl DeviceScene {
             return Ok((stage, PoseTimes::default()));
         };
         let mut stage = Self::moving(device, job.scene, &job.camera, [width, height], seed, &job.needs)?;
-        // The pose measures the bounds of the parts that there are.
+        // The parts are set first, because the pose measures their bounds.
         stage.parts(device, job.scene, job.refresh)?;
         let shown = stage.pose(device, job.scene, moment, device.best_timing())?;
         Ok((stage, shown))
@@ -59,11 +59,11 @@ impl DeviceScene {
         self.pose.is_some()
     }
 
-    /// The geometry of the scene that this was made from in the parts that are built apart; absent where it
-    /// is built as a whole. They stay once there are any.
+    /// Splits the geometry of the scene that this was made from into the parts that are built separately, and
+    /// returns it; `None` if it is built as a whole. Once there are parts, they stay.
     ///
     /// # Errors
-    /// Nothing here moves, out of memory, or a lost device.
+    /// Nothing of the scene moves on the device, memory runs out, or the device is lost.
     pub fn parts(
         &mut self,
         device: &Device,
@@ -83,17 +83,17 @@ impl DeviceScene {
         Ok(Some(parts?))
     }
 
-    /// True for each moving part that is elsewhere than before the last [`DeviceScene::pose`]; empty: all.
+    /// Returns the flags of the moving parts that the last [`DeviceScene::pose`] moved; empty if all moved.
     pub fn moved(&self) -> &[bool] {
         &self.moved
     }
 
-    /// Shows the scene, which is the one that this was made from ([`DeviceScene::moving`]), at a moment: what
-    /// moves is posed on the device. Structures and pictures of the moment before are stale then. What is on
+    /// Shows the scene that this was made from ([`DeviceScene::moving`]) at a moment: the moving parts are
+    /// posed on the device. Structures and pictures of the moment before are stale afterwards. The data on
     /// the device does not depend on the moments that were shown before.
     ///
     /// # Errors
-    /// Its deformer or the device fails, or nothing here moves.
+    /// The deformer or the device fails, or nothing of the scene moves on the device.
     pub fn pose(
         &mut self,
         device: &Device,
@@ -108,12 +108,12 @@ impl DeviceScene {
         Ok(times)
     }
 
-    /// Positions, metres relative to the frame origin, and indices of the triangles at another moment. They
-    /// stay there until [`DeviceScene::pose`] shows a moment, which has to follow; what has moved by then is
-    /// said of the moment shown before.
+    /// Returns the positions, metres relative to the frame origin, and the indices of the triangles at
+    /// another moment. The device keeps this moment until [`DeviceScene::pose`] shows a moment, which must
+    /// follow. The flags of [`DeviceScene::moved`] then compare with the moment shown before.
     ///
     /// # Errors
-    /// As [`DeviceScene::pose`].
+    /// As for [`DeviceScene::pose`].
     pub(super) fn triangles_at(
         &self,
         device: &Device,
@@ -124,7 +124,7 @@ impl DeviceScene {
         self.triangles(device)
     }
 
-    /// Puts what moves where it is at a moment.
+    /// Poses the moving parts at a moment.
     fn place(
         &self,
         device: &Device,
@@ -143,17 +143,17 @@ impl DeviceScene {
     }
 }
 
-/// Times that showing a moment took.
+/// Times of posing a scene at a moment.
 #[derive(Clone, Debug, Default)]
 pub struct PoseTimes {
-    /// On the host, milliseconds: matrices of a rig, or what a deformer simulated or read.
+    /// Time on the host, milliseconds: matrices of a rig, or the simulation or file of a deformer.
     pub host_milliseconds: f64,
-    /// On the device.
+    /// Times of the passes on the device.
     pub passes: Vec<PassTiming>,
 }
 
 impl PoseTimes {
-    /// The times of the stage; none where the device posed nothing.
+    /// Returns the times of the stage; empty if the device posed nothing.
     pub(super) fn times(&self) -> Passes {
         let mut passes = Passes::default();
         if !self.passes.is_empty() {

@@ -1,4 +1,4 @@
-//! The frames of papers, as images take them.
+//! Frames of papers, as settings of images.
 
 use rasray_integrators::{INTEGRATORS, IntegratorRow};
 use rasray_options::OptionValues;
@@ -7,21 +7,21 @@ use rasray_systems::{Preset, System};
 use crate::SystemRequest;
 use crate::frame::{OccluderKind, Primary};
 
-/// Settings of an image where none are given.
+/// Default settings of an image.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FrameDefaults {
-    /// The integrator.
+    /// Integrator.
     pub integrator: &'static IntegratorRow,
-    /// Its options where they differ from its own defaults.
+    /// Options of the integrator where they differ from the integrator's own defaults.
     pub options: OptionValues,
-    /// Way in which first hits are found.
+    /// Method that finds first hits.
     pub primary: Primary,
     /// Occluder of shadow rays.
     pub occluder: OccluderKind,
 }
 
 impl Default for FrameDefaults {
-    /// Paths through the structure alone.
+    /// Returns paths that are traced through the structure alone.
     fn default() -> Self {
         Self {
             integrator: &INTEGRATORS[0],
@@ -33,11 +33,12 @@ impl Default for FrameDefaults {
 }
 
 impl FrameDefaults {
-    /// The frame of its paper for the published preset of a system, as far as a paper shows one. Other
-    /// presets of the same system draw first hits as the paper does, and trace paths through the structure.
+    /// Returns the frame of the paper for the published preset of a system, as far as the paper shows one.
+    /// Other presets of the system find first hits as the paper does, and trace paths through the structure.
     ///
     /// # Panics
-    /// The registry of systems names what there is not; a test reads all of its rows.
+    /// The registry of systems names an integrator or an option that does not exist; a test reads all of its
+    /// rows.
     pub fn of(system: &System, preset: Preset) -> Self {
         let Some(frame) = system.frame else { return Self::default() };
         let primary = Primary::named(frame.primary).expect("a way to first hits");
@@ -59,7 +60,7 @@ impl FrameDefaults {
 }
 
 impl SystemRequest {
-    /// Settings of images where none are given: [`FrameDefaults::of`] for a system that was named.
+    /// Returns the default settings of images: [`FrameDefaults::of`] for a system that was named.
     pub fn frame_defaults(self, preset: Preset) -> FrameDefaults {
         match self {
             Self::Automatic => FrameDefaults::default(),

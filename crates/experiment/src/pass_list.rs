@@ -1,4 +1,4 @@
-//! The passes of a structure on a scene: what a build, a trace and a surface lookup record.
+//! List of the passes of a structure on a scene: the commands of a build, a trace and a surface lookup.
 
 use rasray_ads::{Domain, RayQueue, Trace, TracedPart};
 use rasray_gpu::{Device, PassCommands};
@@ -8,12 +8,12 @@ use crate::device_scene::DeviceScene;
 use crate::error::ExperimentError;
 use crate::jobs::RenderJob;
 
-/// Rays of the traces that are listed: as few as there can be, since their number is no matter of the
+/// Number of rays of the traces that are listed: the smallest possible, since it is not a property of the
 /// structure.
 const RAYS: u32 = 1;
 
-/// Builds until complete, so that sizes are those of the scene, and says what one more build records, then
-/// traces of both kinds and the lookup of surfaces.
+/// Builds until complete, so that sizes are those of the scene, and lists the commands of one more build, of
+/// traces of both kinds and of the lookup of surfaces.
 pub(super) fn pass_list(device: &Device, job: &RenderJob<'_>) -> Result<Vec<PassCommands>, ExperimentError> {
     let spec = job.system.spec()?;
     let (mut stage, _) = DeviceScene::of_job(device, job)?;

@@ -10,9 +10,9 @@ use rasray_report::{Pass, PassOf, Spread, StageTime, Timer};
 struct Row {
     stage: Stage,
     label: String,
-    /// Milliseconds of all its dispatches, one sum a repetition.
+    /// Milliseconds of all dispatches of the pass, one sum per repetition.
     sums: Vec<f64>,
-    /// Its dispatches, one count a repetition.
+    /// Numbers of dispatches of the pass, one per repetition.
     dispatches: Vec<u64>,
 }
 
@@ -25,7 +25,7 @@ pub(super) struct Passes {
 }
 
 impl Passes {
-    /// Begins another repetition: times that are added are its.
+    /// Begins another repetition, to which the following times belong.
     pub(super) fn repeat(&mut self) {
         self.repetitions += 1;
         for row in &mut self.rows {
@@ -34,7 +34,7 @@ impl Passes {
         }
     }
 
-    /// Adds times of one submission to the repetition; the first begins by itself.
+    /// Adds the times of one submission to the repetition; the first repetition begins by itself.
     pub(super) fn add(&mut self, timings: &[PassTiming]) {
         for timing in timings {
             self.timer = Some(timing.timer);
@@ -42,7 +42,7 @@ impl Passes {
         }
     }
 
-    /// Adds a pass, or what the host did, to the repetition.
+    /// Adds the time of a pass, or of the host's work, to the repetition.
     pub(super) fn add_one(&mut self, stage: Stage, label: &str, milliseconds: f64) {
         if self.repetitions == 0 {
             self.repeat();
@@ -58,20 +58,21 @@ impl Passes {
         row.dispatches[self.repetitions - 1] += 1;
     }
 
-    /// Milliseconds of the passes of some stages in each repetition; absent where none was recorded.
+    /// Returns the milliseconds of the passes of some stages in each repetition; `None` if no such pass was
+    /// recorded.
     fn sums(&self, of: impl Fn(Stage) -> bool) -> Option<Vec<f64>> {
         let rows: Vec<_> = self.rows.iter().filter(|row| of(row.stage)).collect();
         let sum = |index| rows.iter().map(|row| row.sums[index]).sum();
         (!rows.is_empty()).then(|| (0..self.repetitions).map(sum).collect())
     }
 
-    /// The median over repetitions of the milliseconds that some stages took together; absent where none was
-    /// recorded.
+    /// Returns the median over repetitions of the milliseconds that some stages took together; `None` if no
+    /// such pass was recorded.
     pub(super) fn median_of(&self, of: impl Fn(Stage) -> bool) -> Option<f64> {
         self.sums(of).map(|sums| median(&sums))
     }
 
-    /// Times of each stage, in the order of a frame.
+    /// Returns the times of each stage, in the order of a frame.
     pub(super) fn stages(&self) -> Vec<StageTime> {
         let time = |stage: Stage| {
             let sums = self.sums(|one| one == stage)?;
@@ -80,7 +81,7 @@ impl Passes {
         Stage::ALL.into_iter().filter_map(time).collect()
     }
 
-    /// Share, median and spread of each pass as parts of a figure.
+    /// Returns share, median and spread of each pass as parts of a figure.
     pub(super) fn report(&self, of: Option<PassOf>) -> Vec<Pass> {
         let middle = middle(&self.sums(|_| true).unwrap_or_default());
         let share = |sums: &[f64]| middle.iter().map(|index| sums[*index]).sum::<f64>() / middle.len() as f64;
@@ -103,7 +104,7 @@ impl Passes {
         self.rows.iter().filter_map(pass).collect()
     }
 
-    /// The timer that measured them.
+    /// Returns the timer that measured the times.
     pub(super) fn timer(&self) -> Option<Timer> {
         self.timer.map(|timer| match timer {
             TimerKind::Device => Timer::Device,
@@ -112,7 +113,8 @@ impl Passes {
     }
 }
 
-/// The places of the median among times: one, or of an even number two, whose mean it is.
+/// Returns the positions of the median among times: one position, or two for an even number of times, whose
+/// mean is the median.
 fn middle(times: &[f64]) -> Vec<usize> {
     let mut order: Vec<usize> = (0..times.len()).collect();
     order.sort_by(|a, b| times[*a].total_cmp(&times[*b]));
@@ -120,7 +122,7 @@ fn middle(times: &[f64]) -> Vec<usize> {
     order[count.saturating_sub(1) / 2..(count / 2 + 1).min(count)].to_vec()
 }
 
-/// Spread of times; absent for nothing.
+/// Returns the spread of times; `None` without times.
 pub(super) fn spread(times: &[f64]) -> Option<Spread> {
     Summary::of(times).map(|summary| Spread {
         count: summary.count as u64,
@@ -131,7 +133,7 @@ pub(super) fn spread(times: &[f64]) -> Option<Spread> {
     })
 }
 
-/// The median; 0 of nothing.
+/// Returns the median; 0 without times.
 pub(super) fn median(times: &[f64]) -> f64 {
     rasray_metrics::median(times).unwrap_or(0.0)
 }
@@ -166,7 +168,7 @@ mod tests {
         assert_eq!((sort.ms_min, sort.ms_median, sort.ms_max), (5.0, 10.0, 15.0));
     }
 
-    /// Also where medians of the parts do not.
+    /// Checks that shares add up to the median of the whole, although medians of the parts do not.
     #[test]
     fn shares_add_up_to_the_median_of_the_whole() {
         let times = [[1.0, 9.0, 4.0], [8.0, 1.0, 2.0], [3.0, 3.0, 3.5], [7.0, 7.0, 7.0]];
@@ -180,12 +182,13 @@ mod tests {
             assert_eq!(passes.sums(|_| true).as_ref(), Some(&wholes));
             assert!((shares(&passes).iter().sum::<f64>() - median(&wholes)).abs() < 1.0e-12, "{count}");
         }
-        // Those of three repetitions are the one that took 11; medians of the parts are 6.5 and 3, or 9.5.
+        // The median of the three repetitions is the one that took 11; medians of the parts are 6.5 and 3,
+        // which add up to 9.5.
         assert_eq!(middle(&[14.0, 11.0, 9.5]), [1]);
         assert_eq!((middle(&[]), middle(&[2.0, 1.0])), (vec![], vec![1, 0]));
     }
 
-    /// Also of passes that take turns, whatever their labels are.
+    /// Checks the sums of stages, also for passes that take turns, whatever their labels are.
     #[test]
     fn a_stage_is_all_its_passes_of_a_repetition() {
         let [closest, occluded] = [TraceMode::Closest, TraceMode::Occluded].map(Stage::Trace);

@@ -1,4 +1,4 @@
-//! The image of a job, wave by wave.
+//! Image of a job, rendered wave by wave.
 
 use std::ops::ControlFlow;
 
@@ -16,7 +16,7 @@ use crate::passes::Passes;
 use crate::shard::Shard;
 use rasray_report::{Memory, Pass, PassOf};
 
-/// Source of the first hits of a frame in place of traces; nothing where they are traced.
+/// Returns the source of first hits of a frame that replaces traces; `None` if first hits are traced.
 fn visibility(
     device: &Device,
     stage: &DeviceScene,
@@ -32,7 +32,7 @@ fn visibility(
     }
 }
 
-/// The passes with the occluder of a frame's shadow rays, in place of traces.
+/// Replaces traces of shadow rays by the passes of the frame's occluder.
 fn with_occluder(
     passes: ImagePasses,
     device: &Device,
@@ -69,23 +69,23 @@ fn with_occluder(
         .map_err(|source| ExperimentError::ShadowMaps { points, source })
 }
 
-/// The image of a job in the making, with the times of its passes. Every call submits and waits.
+/// Image of a job in progress, with the times of its passes. Every call submits and waits.
 pub struct ProgressiveImage {
     /// Image on the film.
     pub(super) image: ImageRenderer,
     pub(super) passes: Passes,
-    /// Its kernels look up the surfaces of hits.
+    /// True if the kernels look up the surfaces of hits.
     of_hits: bool,
 }
 
 impl ProgressiveImage {
     /// Allocates the film of a frame and makes its integrator; nothing is rendered. The scene's view has the
-    /// size of the frame. With a shard only its samples are made. `built` is what will be traced, or what has
-    /// hits like it ([`ProgressiveImage::serves`]).
+    /// size of the frame. With a shard, only the samples of the shard are made. `built` is the structure that
+    /// will be traced, or one with hits of the same kind ([`ProgressiveImage::serves`]).
     ///
     /// # Errors
-    /// The device fails, the frame asks for more than the integrator does, or for first hits that `built`
-    /// does not have.
+    /// The device fails, or the frame asks for more than the integrator can do, or for first hits that
+    /// `built` does not have.
     pub fn new(
         device: &Device,
         (stage, built): (&DeviceScene, &Built),
@@ -118,21 +118,21 @@ impl ProgressiveImage {
         Ok(Self { image: image?, passes: Passes::default(), of_hits: desc.surfaces_of_hits })
     }
 
-    /// True if it renders what `built` holds, without kernels of its own.
+    /// True if the image can be rendered through `built` with the kernels that it has.
     pub fn serves(&self, built: &Built) -> bool {
         !self.of_hits || built.structure().description().surfaces_of_triangles
     }
 
-    /// The image with the variance of each pixel measured.
+    /// Turns on the measurement of each pixel's variance.
     #[must_use]
     pub(super) fn measuring(self) -> Self {
         Self { image: self.image.measuring(), ..self }
     }
 
-    /// Refuses a structure without the first hits that the frame takes from it.
+    /// Refuses a structure that lacks the first hits which the frame takes from it.
     ///
     /// # Errors
-    /// The structure has none.
+    /// The structure has no first hits.
     pub(super) fn check(frame: &Frame, built: &Built) -> Result<(), ExperimentError> {
         let structure = built.structure().description();
         if frame.primary != Primary::Fragments || structure.first_hits {
@@ -141,12 +141,12 @@ impl ProgressiveImage {
         Err(ExperimentError::NoFirstHits { structure: structure.name })
     }
 
-    /// Image on the film.
+    /// Returns the image on the film.
     pub fn image(&self) -> &ImageRenderer {
         &self.image
     }
 
-    /// Adds the bytes of what the image is made in.
+    /// Adds the bytes of the buffers of the image.
     pub(super) fn write_memory(&self, memory: &mut Memory) {
         let passes = self.image.passes();
         let bytes: u64 = passes.bytes_by_part().iter().map(|(_, bytes)| bytes).sum();
@@ -154,7 +154,7 @@ impl ProgressiveImage {
         memory.frame_bytes_per_pixel = Some(bytes as f64 / f64::from(passes.film().pixel_count()));
     }
 
-    /// Adds the same part by part, and shadow maps.
+    /// Adds the bytes of the buffers of the image part by part, and of shadow maps.
     pub(super) fn write_memory_by_part(&self, memory: &mut Memory) {
         let passes = self.image.passes();
         let parts = passes.bytes_by_part().into_iter();
@@ -164,7 +164,7 @@ impl ProgressiveImage {
         }
     }
 
-    /// Film, counters and times start at 0 again.
+    /// Resets film, counters and times to 0.
     ///
     /// # Errors
     /// The device fails.
@@ -173,12 +173,12 @@ impl ProgressiveImage {
         Ok(self.image.clear()?)
     }
 
-    /// As [`ImageRenderer::scene_moved`].
+    /// Takes note of a moved scene, see [`ImageRenderer::scene_moved`].
     pub fn scene_moved(&mut self) {
         self.image.scene_moved();
     }
 
-    /// As [`ImageRenderer::warm_up`].
+    /// Warms up the kernels, see [`ImageRenderer::warm_up`].
     ///
     /// # Errors
     /// The device fails.
@@ -186,20 +186,20 @@ impl ProgressiveImage {
         Ok(self.image.warm_up(built.structure())?)
     }
 
-    /// Renders the next wave. False where rays need more rounds than they had: then all starts at 0 again,
-    /// and the structure allows more from now on.
+    /// Renders the next wave. Returns false if rays needed more rounds than they had: the image then starts
+    /// over, and the structure allows more rounds from then on.
     ///
     /// # Errors
-    /// The device fails, or rays met list entries that name nothing.
+    /// The device fails, or rays met list entries that refer to nothing.
     pub fn advance(&mut self, device: &Device, built: &Built) -> Result<bool, ExperimentError> {
         let step = self.image.advance(built.structure(), device.best_timing())?;
         Ok(keep_times(&mut self.passes, &step))
     }
 
-    /// Renders the samples, or those up to an early end that `progress` asks for.
+    /// Renders all samples, or the samples up to an early end that `progress` asks for.
     ///
     /// # Errors
-    /// As [`ProgressiveImage::advance`].
+    /// As for [`ProgressiveImage::advance`].
     pub(super) fn render(
         &mut self,
         device: &Device,
@@ -218,7 +218,7 @@ impl ProgressiveImage {
         Ok(image.render(built.structure(), device.best_timing(), after)?)
     }
 
-    /// Warns of what the picture lacks: samples that are no numbers, and light behind too many surfaces.
+    /// Warns of faults of the picture: samples that are not numbers, and light behind too many surfaces.
     ///
     /// # Errors
     /// The device fails.
@@ -236,7 +236,7 @@ impl ProgressiveImage {
         Ok(faults)
     }
 
-    /// Says how many triangles were drawn over all pixels, where camera rays are drawn.
+    /// Logs how many triangles were drawn over all pixels, if camera rays are drawn.
     pub(super) fn log_visibility(&self, device: &Device) -> Result<(), ExperimentError> {
         if let Some(visibility) = self.image.passes().visibility() {
             let covering = visibility.read_counts(device)?.covering;
@@ -248,7 +248,7 @@ impl ProgressiveImage {
         Ok(())
     }
 
-    /// Means of all pixels, row by row from the top left; linear Rec. 709, W/(sr m^2).
+    /// Reads the means of all pixels, row by row from the top left; linear Rec. 709, W/(sr m^2).
     ///
     /// # Errors
     /// The device fails.
@@ -256,13 +256,13 @@ impl ProgressiveImage {
         Ok(self.image.film().read(device)?)
     }
 
-    /// Times of the passes since the film was clear, all waves together.
+    /// Returns the times of the passes since the film was cleared, all waves together.
     pub fn pass_times(&self) -> Vec<Pass> {
         self.passes.report(Some(PassOf::Image))
     }
 }
 
-/// Adds the times of a wave; drops all, and is false, where the image starts over.
+/// Adds the times of a wave. Drops all times and returns false if the image starts over.
 fn keep_times(passes: &mut Passes, step: &Advance) -> bool {
     match step {
         Advance::Wave { passes: timings } => passes.add(timings),

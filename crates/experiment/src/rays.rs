@@ -1,4 +1,4 @@
-//! The ray sets of a comparison: the same numbers on every device.
+//! Ray sets of a comparison, whose numbers do not depend on the device.
 
 use glam::{DVec3, Vec2, Vec3};
 use rasray_ads::{PRIMITIVE_NONE, RAY_CULL_BACK_FACES, Ray};
@@ -9,27 +9,27 @@ use rasray_reference::shading::{self, View, camera_ray, cosine_hemisphere, spawn
 
 use crate::jobs::RaySet;
 
-/// Inputs that rays are made from.
+/// Inputs from which rays are made.
 pub struct RaySource<'a> {
-    /// The camera, the size of its image in pixels, and the seed.
+    /// Camera, size of its image in pixels, and seed.
     pub view: &'a View,
-    /// World, metres; rays are relative to it.
+    /// Frame origin in the world, metres; rays are relative to it.
     pub frame_origin: DVec3,
     /// Bounds of the geometry relative to the frame origin, metres.
     pub bounds: [[f32; 3]; 2],
     /// The views' centre relative to the frame origin, metres.
     pub center: [f32; 3],
-    /// Oracle of these triangles.
+    /// Oracle of the triangles.
     pub oracle: &'a Oracle<'a>,
     /// Vertices relative to the frame origin, metres.
     pub positions: &'a [[f32; 3]],
-    /// Three vertices a triangle.
+    /// Indices of vertices, three per triangle.
     pub indices: &'a [u32],
-    /// Flags of the rays, which say which surfaces they pass.
+    /// Flags of the rays, which tell the surfaces that they pass.
     pub flags: RayFlags,
 }
 
-/// `RAY_*` bits of the rays of a picture.
+/// Flags `RAY_*` of the rays of a picture.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct RayFlags {
     /// Flags of camera rays.
@@ -39,7 +39,7 @@ pub struct RayFlags {
 }
 
 impl RayFlags {
-    /// Those that a scene on the device gives its own rays.
+    /// Returns the flags that a scene on the device gives its own rays.
     pub fn of(scene: &GpuScene) -> Self {
         let frame = scene.frame();
         Self { camera: frame.camera_ray_flags, others: frame.spawned_ray_flags }
@@ -47,7 +47,7 @@ impl RayFlags {
 }
 
 impl RaySource<'_> {
-    /// `count` rays of a set; fewer only where the camera sees too little to bounce off.
+    /// Makes `count` rays of a set; fewer only if the camera sees too little to bounce off.
     pub fn rays(&self, set: RaySet, count: u32) -> Vec<Ray> {
         let rays = match set {
             RaySet::Incoherent => incoherent_rays(self.bounds, self.view.seed, count),
@@ -62,8 +62,8 @@ impl RaySource<'_> {
         rays.into_iter().map(|ray| Ray { flags: self.flags.others, ..ray }).collect()
     }
 
-    /// Rays that start on triangles and exclude nothing, as tools make them that know no ids: origins uniform
-    /// over the area and rounded to f32, directions uniform on the sphere, t_min 0.
+    /// Makes rays that start on triangles and exclude none, like tools that know no ids: origins uniform over
+    /// the area and rounded to f32, directions uniform on the sphere, t_min 0.
     fn surface(&self, count: u32) -> Vec<Ray> {
         let triangles = self.indices.as_chunks::<3>().0;
         let corners =
@@ -98,7 +98,7 @@ impl RaySource<'_> {
         RandomStream { seed: self.view.seed, pixel: index, sample: 0 }
     }
 
-    /// Rays through random points of the image and of the lens.
+    /// Makes a ray through random points of the image and of the lens.
     fn camera(&self, index: u32) -> shading::Ray {
         let stream = self.stream(index);
         let place =
@@ -109,9 +109,9 @@ impl RaySource<'_> {
         shading::Ray { culls_back_faces, ..ray }
     }
 
-    /// Lines in uniform directions through points that are uniform between the bounds along camera rays, cut
-    /// where they leave the pixel or the bounds: what a ray that passes a cell of the camera's view asks of
-    /// it.
+    /// Makes segments of lines in uniform directions through points that are uniform between the bounds along
+    /// camera rays, cut where they leave the pixel or the bounds: the queries that a ray makes of a cell of
+    /// the camera's view.
     fn pixels(&self, count: u32) -> Vec<Ray> {
         let eye = self.view.camera.world_from_camera.translation - self.frame_origin;
         let to_centre = Vec3::from(self.center).as_dvec3() - eye;
@@ -147,7 +147,7 @@ impl RaySource<'_> {
             let ray = Ray::new(line.at(first).as_vec3().to_array(), line.direction.as_vec3().to_array());
             Some(Ray { t_max: (last - first) as f32, ..ray })
         };
-        // A camera that looks past the bounds must not keep looking for ever.
+        // The number of tries is limited for a camera that looks past the bounds.
         (0..count.saturating_mul(8)).filter_map(ray).take(count as usize).collect()
     }
 
@@ -159,10 +159,10 @@ impl RaySource<'_> {
         })
     }
 
-    /// Directions of a lobe from what camera rays hit exactly.
+    /// Makes rays in directions of a lobe from the exact hits of camera rays.
     fn bounce(&self, count: u32, lobe: Lobe) -> Vec<Ray> {
         let mut rays = Vec::with_capacity(count as usize);
-        // A camera that sees nothing must not keep looking for ever.
+        // The number of tries is limited for a camera that sees nothing.
         for index in 0..count.saturating_mul(8) {
             if rays.len() == count as usize {
                 break;
@@ -199,14 +199,14 @@ impl RaySource<'_> {
     }
 }
 
-/// Points `origin + t direction`.
+/// Line of the points `origin + t direction`.
 #[derive(Clone, Copy)]
 struct Line {
     origin: DVec3,
     direction: DVec3,
 }
 
-/// The half space of the points with `normal . point <= reach`.
+/// Half space of the points with `normal . point <= reach`.
 #[derive(Clone, Copy)]
 struct Side {
     normal: DVec3,
@@ -218,7 +218,7 @@ impl Line {
         self.origin + self.direction * t
     }
 
-    /// The t of an interval at which the line is within all half spaces; `None` where there are none.
+    /// Returns the t of an interval at which the line is within all half spaces; `None` if there are none.
     fn inside(&self, sides: &[Side], [mut first, mut last]: [f64; 2]) -> Option<[f64; 2]> {
         for side in sides {
             let (slope, gap) = (side.normal.dot(self.direction), side.reach - side.normal.dot(self.origin));
@@ -233,25 +233,25 @@ impl Line {
     }
 }
 
-/// From the direction of a ray, the unit normal that faces it and two numbers in [0, 1) to a unit direction
-/// above the surface.
+/// Lobe: a function from the direction of a ray, the unit normal that faces it and two numbers in [0, 1) to a
+/// unit direction above the surface.
 type Lobe = fn(Vec3, Vec3, Vec2) -> Vec3;
 
-/// Cosine-weighted.
+/// Returns a cosine-weighted direction.
 fn diffuse(_: Vec3, normal: Vec3, numbers: Vec2) -> Vec3 {
     shading::basis_around(normal) * cosine_hemisphere(numbers)
 }
 
-/// As of a plane mirror.
+/// Returns the direction of a plane mirror.
 fn mirrored(direction: Vec3, normal: Vec3, _: Vec2) -> Vec3 {
     (direction - 2.0 * direction.dot(normal) * normal).normalize()
 }
 
-/// The exponent of [`glossy`]: half of its directions lie within 6.7 degrees of the mirrored one.
+/// Exponent of [`glossy`]: half of its directions lie within 6.7 degrees of the mirrored one.
 const GLOSS: f32 = 100.0;
 
-/// Around the mirrored direction, with a density as the cosine to the power of [`GLOSS`]; what falls below
-/// the surface is mirrored by it.
+/// Returns a direction around the mirrored one, with a density proportional to the cosine to the power of
+/// [`GLOSS`]; a direction below the surface is mirrored by it.
 fn glossy(direction: Vec3, normal: Vec3, numbers: Vec2) -> Vec3 {
     let cosine = (1.0 - numbers.x).powf(1.0 / (GLOSS + 1.0));
     let sine = (1.0 - cosine * cosine).max(0.0).sqrt();
@@ -262,8 +262,8 @@ fn glossy(direction: Vec3, normal: Vec3, numbers: Vec2) -> Vec3 {
     above.normalize()
 }
 
-/// Rays with origins uniform in a box (corners in metres) and directions uniform on the sphere: the set
-/// [`RaySet::Incoherent`]. A ray depends on the seed and its index alone.
+/// Makes rays with origins uniform in a box (corners in metres) and directions uniform on the sphere: the set
+/// [`RaySet::Incoherent`]. A ray depends only on the seed and its index.
 pub fn incoherent_rays([lower, upper]: [[f32; 3]; 2], seed: u32, count: u32) -> Vec<Ray> {
     let ray = |index| {
         let stream = RandomStream { seed, pixel: index, sample: 0 };
@@ -275,7 +275,7 @@ pub fn incoherent_rays([lower, upper]: [[f32; 3]; 2], seed: u32, count: u32) -> 
     (0..count).map(ray).collect()
 }
 
-/// Uniform on the sphere.
+/// Returns a direction uniform on the sphere.
 fn direction(stream: RandomStream) -> [f32; 3] {
     let z = 1.0 - 2.0 * stream.float(18);
     let azimuth = std::f32::consts::TAU * stream.float(19);
@@ -308,7 +308,7 @@ pub fn oracle_ray(ray: &Ray) -> rasray_reference::oracle::Ray {
     }
 }
 
-/// The corners of all triangles.
+/// Returns the corners of all triangles.
 pub(super) fn triangles(positions: &[[f32; 3]], indices: &[u32]) -> Vec<[[f32; 3]; 3]> {
     let corner = |index: u32| positions.get(index as usize).copied().unwrap_or_default();
     indices.as_chunks::<3>().0.iter().map(|corners| corners.map(corner)).collect()
@@ -340,7 +340,7 @@ mod tests {
                 glossy(direction, normal, **numbers).dot(mirror) > 6.7_f32.to_radians().cos()
             });
             let share = near.count() as f64 / numbers.len() as f64;
-            // Directions below the surface come nearer.
+            // Directions below the surface are mirrored, which brings them nearer.
             assert!(share > 0.47 && (direction == grazing || share < 0.53), "{direction}: {share}");
         }
     }

@@ -1,4 +1,4 @@
-//! A job of an image: scene to device, structure, waves of samples, readback.
+//! Job of an image: scene to device, structure, waves of samples, readback.
 
 use std::collections::BTreeMap;
 use std::time::Instant;
@@ -23,28 +23,28 @@ use crate::shard::Shard;
 use crate::system_config::SystemConfig;
 use rasray_report::{AdaptiveRecord, Counters, PassOf, Times};
 
-/// Pixels and what they cost.
+/// Pixels of an image and their costs.
 #[derive(Default)]
 pub(super) struct Pixels {
-    /// Linear Rec. 709, W/(sr m^2).
+    /// Means in linear Rec. 709, W/(sr m^2).
     pub(super) means: Vec<[f32; 3]>,
-    /// Sums of samples, where they are kept.
+    /// Sums of samples, if they are kept.
     sums: Option<Vec<[f32; 3]>>,
-    /// Samples in each pixel's sum, where they are kept.
+    /// Number of samples in each pixel's sum, if they are kept.
     pub(super) counts: Option<Vec<u32>>,
-    /// Samples of all pixels.
+    /// Number of samples of all pixels together.
     samples: u64,
-    /// Samples of the pixel that has most.
+    /// Number of samples of the pixel with the most.
     samples_most: u32,
     pub(super) samples_done: u32,
     pub(super) passes: Passes,
     pub(super) counters: Counters,
-    /// Time of the first dispatch of every kernel, milliseconds; absent where they had been used.
+    /// Time of the first dispatch of every kernel, milliseconds; absent if the kernels had been used.
     pub(super) first_use_ms: Option<f64>,
 }
 
 impl Pixels {
-    /// The pixels of a film, without what they cost.
+    /// Reads the pixels of a film, without their costs.
     fn of(film: &Film, device: &Device, kept: Kept) -> Result<Self, ExperimentError> {
         let count = film.pixel_count() as usize;
         let mut means = Vec::with_capacity(count);
@@ -62,7 +62,7 @@ impl Pixels {
         Ok(Self { means, sums, counts, samples, samples_most, ..Self::default() })
     }
 
-    /// Shares of samples among the pixels by a rule.
+    /// Describes the sharing of samples among the pixels by a rule.
     pub(super) fn adaptive(&self, rule: Adaptive) -> AdaptiveRecord {
         AdaptiveRecord {
             threshold: rule.threshold,
@@ -89,7 +89,8 @@ pub(super) struct Kept {
     counts: bool,
 }
 
-/// Renders the samples of an image through a built structure; kernels that are `new` are used once before.
+/// Renders the samples of an image through a built structure; kernels that are `new` are used once
+/// beforehand.
 pub(super) fn render_pixels(
     device: &Device,
     rendering: &mut ProgressiveImage,
@@ -120,8 +121,8 @@ pub(super) fn render_pixels(
     Ok(Pixels { counters, first_use_ms, ..pixels })
 }
 
-/// State on a device of a scene that is rendered at one moment after the other: the scene, the structure, the
-/// image. Begin with nothing for another scene.
+/// State on a device of a scene that is rendered at one moment after another: the scene, the structure and
+/// the image. Another scene needs a new state.
 #[derive(Default)]
 pub struct KeptScene(Option<OnDevice>);
 
@@ -134,14 +135,14 @@ struct OnDevice {
     is_warm: bool,
 }
 
-/// Inputs of a job that decide what the device has.
+/// Inputs of a job that decide the data on the device.
 struct MadeFor {
-    /// For the scene there.
+    /// Needs of the scene on the device.
     needs: Needs,
     refresh: Refresh,
-    /// For the structure.
+    /// Configuration of the structure.
     system: SystemConfig,
-    /// For the image.
+    /// Frame of the image.
     frame: Frame,
     shard: Option<Shard>,
     measures: bool,
@@ -154,7 +155,7 @@ impl MadeFor {
         Self { needs, refresh: job.refresh, system, frame, shard: job.shard, measures }
     }
 
-    /// True if the scene on the device is that of another job.
+    /// True if the scene on the device also serves another job.
     fn has_scene_of(&self, other: &Self) -> bool {
         self.needs == other.needs && self.refresh == other.refresh
     }
@@ -164,7 +165,7 @@ impl MadeFor {
     }
 }
 
-/// The triangles of the frame before, where the job has one; a pose has to follow.
+/// Returns the triangles of the frame before, if the job has one; a pose must follow.
 fn triangles_before(
     device: &Device,
     stage: &DeviceScene,
@@ -175,8 +176,8 @@ fn triangles_before(
     Ok(Some(TrianglesBefore { positions, indices }))
 }
 
-/// Brings a job to the device: what is there stays as far as its eye is not far from that of the job before.
-/// With times of the pose; nothing where the host posed the scene.
+/// Brings a job to the device. The existing state is kept unless the eye is far from that of the job before.
+/// Returns the times of the pose as well; none if the host posed the scene.
 fn on_device(
     device: &Device,
     job: &RenderJob<'_>,
@@ -195,7 +196,7 @@ fn on_device(
         Some((moment, OnDevice { mut stage, built, rendering, made_for: kept_for, .. })) => {
             let Frame { width, height, seed, .. } = job.frame;
             stage.look(&View { camera: job.camera.clone(), width, height, seed })?;
-            // Times in ascending order may be cheaper.
+            // Times in ascending order may be cheaper, so the frame before comes first.
             before = triangles_before(device, &stage, job)?;
             let shown = stage.pose(device, job.scene, moment, device.best_timing())?;
             let built = Some(built).filter(|_| kept_for.system == made_for.system);
@@ -213,7 +214,7 @@ fn on_device(
     stage.sample_as(&job.frame)?;
     let followed = built.and_then(|mut built| {
         says("build", "of the frame");
-        // A pool that it cannot have may be reached by device address.
+        // If a pool cannot be allocated, a structure that is made anew may reach it by device address.
         let failed = |error: &_| tracing::info!("the structure is made anew: {error}");
         built.follow(device, &stage.scene, stage.moved()).inspect_err(failed).ok().map(|()| built)
     });
@@ -250,7 +251,7 @@ pub(super) fn render(
 ) -> Result<RenderOutput, ExperimentError> {
     let started = Instant::now();
     let frame = &job.frame;
-    // Images after the first of a sequence take its memory again.
+    // Images after the first of a sequence take the memory of the first again, so it is checked once.
     if kept.0.is_none() {
         image_memory::check(device, frame, job.aovs, job.shard.is_some())?;
     }

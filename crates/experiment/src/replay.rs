@@ -1,4 +1,4 @@
-//! One ray of a comparison, step by step: what every system did for it, and under it what is true.
+//! Replay of one ray of a comparison, step by step: the steps of every system, and below them the truth.
 
 use std::fmt::Write as _;
 
@@ -17,10 +17,10 @@ use crate::jobs::Comparison;
 use crate::rays::oracle_ray;
 use crate::system_config::SystemConfig;
 
-/// Cells of a view that are listed at most: more do not help a reader.
+/// Largest number of cells of a view that are listed: more do not help a reader.
 const MOST_CELLS: usize = 4096;
 
-/// Scene and oracle that a ray is replayed against.
+/// Scene and oracle for the replay of a ray.
 pub(super) struct ReplaySetting<'a> {
     pub(super) device: &'a Device,
     pub(super) stage: &'a DeviceScene,
@@ -30,7 +30,8 @@ pub(super) struct ReplaySetting<'a> {
 }
 
 impl ReplaySetting<'_> {
-    /// The ray at `index` through all systems and the oracle, in words. `set` names where it comes from.
+    /// Replays the ray at `index` through all systems and the oracle, in words. `set` names the source of the
+    /// ray.
     pub(super) fn replay(
         &self,
         specs: &[Spec],
@@ -59,7 +60,7 @@ impl ReplaySetting<'_> {
     }
 }
 
-/// The ray at `index` of every set through all systems and the oracle, instead of a comparison.
+/// Replays the ray at `index` of every set through all systems and the oracle, instead of a comparison.
 pub(super) fn replay_sets(
     setting: &ReplaySetting<'_>,
     systems: &[SystemConfig],
@@ -74,7 +75,7 @@ pub(super) fn replay_sets(
     Ok(Comparison { replay: Some(text), ..Comparison::default() })
 }
 
-/// The ray of a hard case that is replayed, with the ids of triangles that the device has.
+/// Returns the ray of a hard case to replay, with ids of the device.
 pub(super) fn replay_case(
     device: &Device,
     stage: &DeviceScene,
@@ -90,7 +91,7 @@ pub(super) fn replay_case(
     replay_sets(&setting, systems, std::iter::once((name.to_owned(), rays)), index)
 }
 
-/// Tests of the truly hit triangle by a system, in words.
+/// Describes a system's tests of the triangle that is truly hit.
 fn met(replay: &Replay, truth: &OracleReplay) -> String {
     let Some((primitive, _)) = truth.verdict.outcome.hit() else { return String::new() };
     let met = replay.steps_of(primitive);
@@ -105,7 +106,7 @@ fn met(replay: &Replay, truth: &OracleReplay) -> String {
     text
 }
 
-/// Cells a side of a system's cube of views; absent where it has none.
+/// Returns the number of cells along a side of a system's cube of views; `None` without a cube.
 fn cube_resolution(built: &Built) -> Result<Option<u32>, ExperimentError> {
     let (options, _) = built.resolved()?;
     let views = options.get("views").and_then(Value::as_str);
@@ -114,7 +115,8 @@ fn cube_resolution(built: &Built) -> Result<Option<u32>, ExperimentError> {
     Ok(resolution.map(|cells| cells as u32))
 }
 
-/// The cells that the ray truly crosses up to its hit, and which of them the system searched.
+/// Describes the cells that the ray exactly crosses up to its hit, and those of them that the system
+/// searched.
 fn exact_cells(replay: &Replay, truth: &OracleReplay, center: [f32; 3], resolution: u32) -> String {
     let ray = &replay.ray;
     let origin = std::array::from_fn(|axis| f64::from(ray.origin[axis]) - f64::from(center[axis]));

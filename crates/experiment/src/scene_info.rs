@@ -1,4 +1,5 @@
-//! Facts of a scene: its contents, the defaults of view and light, and the data that an image of it can show.
+//! Facts of a scene: its contents, the defaults of view and light, and the data that an image of the scene
+//! can show.
 
 use crate::backend::TexelCapacity;
 use crate::error::ExperimentError;
@@ -13,45 +14,45 @@ use rasray_scene::{Camera, Environment, Motion, Scene, default_view};
 use rasray_scene_source::{ChosenCamera, LoadedScene};
 use serde_json::{Value, json};
 
-/// Counts the bytes of a scene that are not uploaded where `needs` are those of an image from `camera`.
+/// Counts the bytes of a scene that are not uploaded if `needs` are those of an image from `camera`.
 pub fn count_not_uploaded(loaded: &mut LoadedScene, camera: &Camera, needs: &Needs) {
     let eye = camera.world_from_camera.translation;
     let origin = SceneTables::default_frame_origin(&loaded.scene, eye);
     loaded.not_uploaded_bytes = left_out_bytes(&loaded.scene, origin, &Parts::from(needs)).ok();
 }
 
-/// A scene in numbers.
+/// Facts of a scene in numbers.
 #[derive(Clone, Debug)]
 pub struct SceneInfo {
-    /// File stem, or built-in name with its parameters.
+    /// Name: file stem, or built-in name with its parameters.
     pub name: String,
     /// Names and numbers of triangles, instances, meshes, materials, textures, lights and clips.
     pub counts: [(&'static str, u64); 7],
-    /// Its clips: name and seconds.
+    /// Clips: name and duration in seconds.
     pub clips: Vec<(String, f32)>,
-    /// When it is shown; absent at rest.
+    /// Pose in which the scene is shown; absent at rest.
     pub pose: Option<PoseRecord>,
-    /// The way it changes with time.
+    /// Kind of the scene's change with time.
     pub motion: Motion,
-    /// Seconds from which on nothing changes.
+    /// Time after which nothing changes, seconds.
     pub duration_s: f64,
-    /// Its environment in words.
+    /// Environment in words.
     pub environment: String,
-    /// True if it gets the default light.
+    /// True if the scene gets the default light.
     pub unlit: bool,
     /// Least and greatest corner, metres; absent without triangles.
     pub bounds: Option<(DVec3, DVec3)>,
-    /// Share of fragments that one view of three saves.
+    /// Share of fragments that one view instead of three saves.
     pub one_view_saves: Option<f64>,
     /// SHA-256 of the scene file, in hexadecimal; absent for built-in scenes.
     pub sha256: Option<String>,
-    /// Its cameras.
+    /// Cameras of the scene.
     pub cameras: Vec<CameraRecord>,
-    /// From where it is seen.
+    /// Camera from which the scene is seen.
     pub view: ChosenCamera,
-    /// The integrator whose needs these are.
+    /// Name of the integrator for which the needs are.
     pub integrator: &'static str,
-    /// Data of it that an image can show.
+    /// Data of the scene that an image can show.
     pub needs: Needs,
     /// Bytes that are not uploaded because no image can show them; see [`LoadedScene::not_uploaded_bytes`].
     pub not_uploaded_bytes: Option<u64>,
@@ -60,11 +61,12 @@ pub struct SceneInfo {
 }
 
 impl SceneInfo {
-    /// Looks a scene over, as it is posed. It is lit as a render would light it: what it needs then is what
-    /// counts. `capacity` opens the device, if there is one; it is called only where something depends on it.
+    /// Collects the facts of a scene as it is posed. The scene is lit as for a render, since the needs depend
+    /// on its lights. `capacity` opens the device, if there is one; it is called only if the facts depend on
+    /// the device.
     ///
     /// # Errors
-    /// The scene names what it does not have, or has more texels than the device can make fit.
+    /// The scene refers to data that it does not have, or has more texels than can be made to fit the device.
     pub fn of(
         loaded: &mut LoadedScene,
         view: &ChosenCamera,
@@ -106,7 +108,7 @@ impl SceneInfo {
         })
     }
 
-    /// Fields of `rasray info --json`.
+    /// Returns the fields of `rasray info --json`.
     pub fn json(&self) -> Value {
         let clips = self.clips.iter().map(|(name, seconds)| json!({ "name": name, "duration_s": seconds }));
         let mut scene = json!({
@@ -193,7 +195,7 @@ mod tests {
             .sum();
         // One zero word stands in for a table without words.
         assert!(loaded.not_uploaded_bytes.is_some_and(|count| count >= normals as u64 - 4), "{normals}");
-        // Faulty data that is not looked at is not counted, and is no error.
+        // Faulty data that is not needed is not counted, and is not an error.
         loaded.scene.meshes[0].normals = Some(Vec::new());
         count_not_uploaded(&mut loaded, &camera, &needs);
         assert_eq!(loaded.not_uploaded_bytes, None);

@@ -1,5 +1,5 @@
-//! From words to rows of the registry: which system has which presets and options, and how options given once
-//! reach several systems.
+//! Selection of systems from words: systems with presets and options of the registry, and options that are
+//! given once for several systems.
 
 use crate::error::ExperimentError;
 use crate::system_config::SystemConfig;
@@ -12,10 +12,10 @@ mod error;
 use assigned::Assigned;
 pub use error::SelectionError;
 
-/// One system with its options, each of which it must have.
+/// Makes the configuration of one system, which must have each of the options.
 ///
 /// # Errors
-/// A preset or an option that the system does not have, and values that do not go together.
+/// The system does not have the preset or an option, or values do not go together.
 pub fn one_system(
     system: &'static System,
     preset: Preset,
@@ -34,13 +34,13 @@ pub fn one_system(
     Ok(config)
 }
 
-/// Every named system with every named preset that it has. An option goes to the systems that have it;
-/// `assignments` (`mmrt.samples=50`) address one system, or one preset of it (`mmrt-published.samples=50`),
-/// which takes part once with each of several values (`mmrt.samples=50,100`) and with every combination of
-/// them.
+/// Makes the configurations of every named system with every named preset that it has. An option goes to the
+/// systems that have it. An assignment (`mmrt.samples=50`) addresses one system, or one preset of it
+/// (`mmrt-published.samples=50`); with several values (`mmrt.samples=50,100`) the system takes part once with
+/// each value, and with every combination of several assignments.
 ///
 /// # Errors
-/// A preset or an option that none of the named systems has, and a malformed assignment.
+/// No named system has a preset or an option, or an assignment is malformed.
 pub fn several_systems(
     systems: &[&'static System],
     presets: &[Preset],

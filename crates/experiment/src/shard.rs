@@ -1,12 +1,12 @@
-//! A share of work that several processes divide among themselves.
+//! Share of work that several processes divide among themselves.
 
 use std::fmt;
 
 use rasray_frame::Samples;
 use rasray_options::text::numbers;
 
-/// One of several shares, dealt out in turns: things are counted from 0, and share i of n gets those whose
-/// number leaves i - 1 when it is divided by n.
+/// Share i of n of work that is dealt out in turns: items are counted from 0, and share i gets the items
+/// whose number has the remainder i - 1 modulo n.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Shard {
     number: u32,
@@ -14,35 +14,35 @@ pub struct Shard {
 }
 
 impl Default for Shard {
-    /// All there is.
+    /// Returns the share that holds everything.
     fn default() -> Self {
         Self { number: 1, of: 1 }
     }
 }
 
 impl Shard {
-    /// Share `number` (from 1 on) of `of`; `None` unless there is such a share.
+    /// Makes share `number` (from 1 on) of `of`; `None` unless there is such a share.
     pub fn new(number: u32, of: u32) -> Option<Self> {
         (1..=of).contains(&number).then_some(Self { number, of })
     }
 
-    /// Reads what [`fmt::Display`] writes: `2/8`.
+    /// Reads the form that [`fmt::Display`] writes: `2/8`.
     pub fn parse(text: &str) -> Option<Self> {
         let [number, of] = numbers(text, &['/'])?;
         Self::new(number, of)
     }
 
-    /// Shares in all.
+    /// Returns the number of shares.
     pub fn count(self) -> u32 {
         self.of
     }
 
-    /// True if the thing at this place, from 0, is part of the share.
+    /// True if the item at this place, from 0, is part of the share.
     pub fn holds(self, place: u32) -> bool {
         place % self.of == self.number - 1
     }
 
-    /// Those of the samples from 0 to `count` - 1 that are part of the share, in their order.
+    /// Returns the samples from 0 to `count` - 1 that are part of the share, in their order.
     pub fn samples(self, count: u32) -> Samples {
         Samples::from(self.number - 1..count).step_by(self.of)
     }

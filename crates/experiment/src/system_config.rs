@@ -1,4 +1,4 @@
-//! A system with its preset and options, as jobs name it.
+//! Configuration of a system: its preset and options, as jobs name it.
 
 use crate::error::ExperimentError;
 use crate::frame::{Frame, Primary};
@@ -7,30 +7,30 @@ use rasray_scene::needs::Workload;
 use rasray_scene::{Camera, Projection};
 use rasray_systems::{Preset, Spec, System, VIEW_LIMIT};
 
-/// A system with what was asked of it.
+/// System with the preset and options that were asked for.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SystemConfig {
     /// The system.
     pub system: &'static System,
-    /// Its preset.
+    /// Preset of the system.
     pub preset: Preset,
-    /// Options over the preset; only such that the system has.
+    /// Options that override the preset; only options that the system has.
     pub options: OptionValues,
-    /// The options of several values, where the system takes part once with each.
+    /// Options with several values, if the system takes part once with each value.
     pub variant: Option<String>,
-    /// Why it was taken, where none was asked for.
+    /// Reason for the choice of the system, if the user asked for none.
     pub chosen: Option<String>,
 }
 
 impl SystemConfig {
-    /// A system that was asked for, with these options over its preset.
+    /// Makes the configuration of a system that was asked for, with these options over its preset.
     pub fn new(system: &'static System, preset: Preset, options: OptionValues) -> Self {
         Self { system, preset, options, variant: None, chosen: None }
     }
 
-    /// Sets the payload for renders of a workload: published fragments carry what their paper keeps for
-    /// occlusion where nothing else is asked for, unless a payload was given. Comparisons keep the preset's,
-    /// since rays are compared in addition to the image.
+    /// Sets the payload for renders of a workload: published fragments carry the payload that their paper
+    /// keeps for occlusion if nothing else is asked for, unless a payload was given. Comparisons keep the
+    /// preset's payload, since they compare rays in addition to the image.
     #[must_use]
     pub fn serving(mut self, workload: Workload) -> Self {
         if workload.is_visibility()
@@ -43,9 +43,9 @@ impl SystemConfig {
         self
     }
 
-    /// Sets the views for a frame that a camera sees: published structures whose paper draws the camera's
-    /// view draw it, a cell a pixel of the image, unless views were given, and so do all from which first
-    /// hits are taken. A parallel projection has no such view.
+    /// Sets the views for a frame that a camera sees. Published structures whose paper draws the camera's
+    /// view draw it, with a cell per pixel of the image, unless views were given; so do all structures from
+    /// which first hits are taken. A parallel projection has no such view.
     #[must_use]
     pub fn seen_by(mut self, camera: &Camera, frame: &Frame) -> Self {
         let draws = self.preset == Preset::Published || frame.primary == Primary::Fragments;
@@ -64,7 +64,7 @@ impl SystemConfig {
         self
     }
 
-    /// Warning for images of a workload that shades where fragments carry nothing to shade by.
+    /// Returns a warning for images of a workload that shades, if fragments carry no data for shading.
     pub fn shortcoming(&self, workload: Workload) -> Option<String> {
         let payload = self.options.get("payload").and_then(Value::word);
         let payload = payload.filter(|payload| ["normal", "plane"].contains(payload))?;
@@ -74,10 +74,10 @@ impl SystemConfig {
         })
     }
 
-    /// Spec that the registry makes the structure from.
+    /// Makes the spec from which the registry makes the structure.
     ///
     /// # Errors
-    /// Values do not go together; those of a config of the command line do.
+    /// Values do not go together, which cannot happen for a configuration of the command line.
     pub fn spec(&self) -> Result<Spec, ExperimentError> {
         Ok(Spec::of(self.system, self.preset, self.options.clone())?)
     }

@@ -1,5 +1,5 @@
-//! The texels of a scene's textures, and images that are made smaller because a device does not hold the
-//! texels of all.
+//! Texels of a scene's textures, and images that are made smaller because a device cannot hold the texels of
+//! all images.
 
 use crate::backend::TexelCapacity;
 use crate::error::ExperimentError;
@@ -13,18 +13,18 @@ use serde_json::{Value, json};
 /// Bytes of texels that every device holds: Vulkan grants each of the buffers 128 MiB.
 const HELD_BY_EVERY_DEVICE: u64 = 512 << 20;
 
-/// The texels that the textures of a scene have as far as they are needed.
+/// Returns the needed texels of a scene's textures.
 ///
 /// # Errors
-/// The scene names what it does not have.
+/// The scene refers to data that it does not have.
 fn demand(scene: &Scene, needs: &Needs) -> Result<TexelDemand, ExperimentError> {
     Ok(TexelDemand::of(scene, &Parts::from(needs))?)
 }
 
-/// Images that a device does not hold as they are.
+/// Returns the images that must be made smaller for a device.
 ///
 /// # Errors
-/// Even images of one texel each are too many.
+/// The device cannot hold even images of one texel each.
 fn smaller_images(
     demand: &TexelDemand,
     capacity: &TexelCapacity,
@@ -32,11 +32,12 @@ fn smaller_images(
     Ok(demand.smaller_images(capacity.texels)?)
 }
 
-/// Makes the largest images smaller until the device holds the texels of all, and says in words what it did,
-/// if anything. Whoever reads the scene afterwards, the reference too, reads these images.
+/// Makes the largest images smaller until the device can hold the texels of all images, and returns a
+/// description of the change, if any. Everything that reads the scene afterwards, including the reference,
+/// reads the smaller images.
 ///
 /// # Errors
-/// Even images of one texel each are too many.
+/// The device cannot hold even images of one texel each.
 pub fn fit(
     loaded: &mut LoadedScene,
     needs: &Needs,
@@ -50,8 +51,8 @@ pub fn fit(
     Ok(text)
 }
 
-/// Names the images that are made smaller, and the reason; nothing where none is. The largest come first:
-/// they were so before, too.
+/// Describes the images that are made smaller, and the reason; `None` if there are none. The largest come
+/// first, by the sizes before.
 fn described(smaller: &[SmallerImage], demand: u64, capacity: &TexelCapacity) -> Option<String> {
     let first = smaller.iter().max_by_key(|image| image.from.map(u64::from).iter().product::<u64>())?;
     let ([width, height], [to_width, to_height]) = (first.from, first.to);
@@ -68,7 +69,7 @@ fn described(smaller: &[SmallerImage], demand: u64, capacity: &TexelCapacity) ->
     ))
 }
 
-/// As reports and `rasray info --json` name them.
+/// Converts to the records of reports and of `rasray info --json`.
 fn records(smaller: &[SmallerImage]) -> Vec<SmallerImageRecord> {
     let record = |image: &SmallerImage| SmallerImageRecord {
         name: image.name.clone(),
@@ -78,20 +79,21 @@ fn records(smaller: &[SmallerImage]) -> Vec<SmallerImageRecord> {
     smaller.iter().map(record).collect()
 }
 
-/// Bytes of texels, and what the device in use does with them where not every device holds them.
+/// Number of bytes of texels, and the consequences for the device in use if not every device can hold that
+/// many.
 #[derive(Clone, Debug)]
 pub struct TexelInfo {
     bytes: u64,
-    /// Number of texels it holds, and the images that are made smaller for it.
+    /// Capacity of the device, and the images that are made smaller for it.
     device: Option<(TexelCapacity, Vec<SmallerImage>)>,
 }
 
 impl TexelInfo {
-    /// Counts the texels that `needs` asks for. `capacity` opens the device, if there is one: it is called
-    /// only where the answer depends on it.
+    /// Counts the texels that `needs` asks for. `capacity` opens the device, if there is one; it is called
+    /// only if the answer depends on the device.
     ///
     /// # Errors
-    /// The scene names what it does not have, or the device holds too few texels even where images have one
+    /// The scene refers to data that it does not have, or the device cannot hold even images of one texel
     /// each.
     pub fn of(
         scene: &Scene,
@@ -103,13 +105,13 @@ impl TexelInfo {
         if bytes <= HELD_BY_EVERY_DEVICE {
             return Ok(Self { bytes, device: None });
         }
-        // Without a device the scene is shown all the same.
+        // Without a device the scene is shown as well, with the bytes alone.
         let Some(capacity) = capacity() else { return Ok(Self { bytes, device: None }) };
         let smaller = smaller_images(&demand, &capacity)?;
         Ok(Self { bytes, device: Some((capacity, smaller)) })
     }
 
-    /// In words; nothing where there are no texels.
+    /// Describes the texels in words; `None` without texels.
     pub fn text(&self) -> Option<String> {
         let held = bytes(HELD_BY_EVERY_DEVICE);
         let total = bytes(self.bytes);
@@ -129,7 +131,7 @@ impl TexelInfo {
         Some(text)
     }
 
-    /// Fields of `rasray info --json`.
+    /// Returns the fields of `rasray info --json`.
     pub fn json(&self) -> Value {
         let mut fields = json!({ "bytes": self.bytes, "held_by_every_device_bytes": HELD_BY_EVERY_DEVICE });
         if let Some((capacity, smaller)) = &self.device {
@@ -182,7 +184,7 @@ mod tests {
             text.contains(&format!(" instead of {largest}x")) && text.contains("a small device"),
             "{text}"
         );
-        // None where even one texel an image is too much.
+        // The call fails if even one texel per image is too much.
         let error = fit(&mut loaded(), &needed, &capacity(0)).expect_err("no room");
         assert!(error.to_string().contains("more than the 0"), "{error}");
     }

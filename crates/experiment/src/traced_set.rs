@@ -1,5 +1,4 @@
-//! One set of rays: traced through all systems in turns, compared with the truth, and kept where
-//! wanted.
+//! Set of rays that is traced through all systems in turns, compared with the truth, and kept if wanted.
 
 use std::borrow::Borrow;
 
@@ -16,23 +15,23 @@ use crate::passes::{Passes, median, spread};
 use rasray_ray_files::{HitsFile, TrueHit};
 use rasray_report::{PassOf, Run, Times};
 
-/// Most rays that are traced at a time.
+/// Largest number of rays that are traced at a time.
 const BATCH: usize = 131_072;
 
-/// Preset of the runs of hits that were found elsewhere.
+/// Name that stands for the preset in runs of hits that were found elsewhere.
 pub(super) const GIVEN: &str = "given";
 
-/// Rays with their truth.
+/// Rays with their true answers.
 pub(super) struct RaysWithTruth {
-    /// Such as `camera`.
+    /// Name of the set, such as `camera`.
     pub(super) name: String,
-    /// As the device traces them.
+    /// Rays as the device traces them.
     pub(super) rays: Vec<Ray>,
-    /// One a ray.
+    /// Verdicts of the oracle, one per ray.
     pub(super) verdicts: Vec<Verdict>,
 }
 
-/// Who answers a set, each with the place of its cell.
+/// Contestants that answer a set, each with the place of its cell.
 #[derive(Default)]
 pub(super) struct Taking<'a> {
     /// Systems, which trace it in turns.
@@ -42,8 +41,8 @@ pub(super) struct Taking<'a> {
 }
 
 impl<'a> Taking<'a> {
-    /// Those whose cells are wanted. Places go on from `first`: all `systems` with their positions in the
-    /// job, which `count` is the number of, then the files of hits.
+    /// Selects the contestants whose cells are wanted. Places count from `first`: all `systems` with their
+    /// positions in the job, of which there are `count`, then the files of hits.
     pub(super) fn of(
         first: usize,
         (contestants, count): (&'a [(usize, Contestant<'a>)], usize),
@@ -66,7 +65,7 @@ impl<'a> Taking<'a> {
 /// Settings of the traces of every set.
 #[derive(Clone, Copy)]
 pub(super) struct Wanted {
-    /// Times each set is traced after once to warm up, at least 1.
+    /// Number of timed traces of each set after one that warms up, at least 1.
     pub(super) repetitions: u32,
     /// Seed that the rays were drawn with.
     pub(super) seed: u32,
@@ -79,17 +78,17 @@ pub(super) struct Wanted {
 /// Answers of one system to one set.
 #[derive(Debug, Default)]
 pub struct TracedSet {
-    /// One a ray.
+    /// Hits, one per ray.
     pub hits: Vec<Hit>,
     /// Counters of one trace of all rays.
     pub counters: QueueCounters,
-    /// Time of each timed trace.
+    /// Times of the timed traces, milliseconds.
     pub milliseconds: Vec<f64>,
     pub(super) passes: Passes,
 }
 
 /// Traces a set through the systems, in turns, and adds a run for each to the comparison. `name_hits`
-/// gives hits of the device the ids of the truth. Returns the answers of each new run, so named.
+/// converts hits of the device to the ids of the truth. Returns the converted answers of each new run.
 pub(super) fn compare_set(
     device: &Device,
     taking: &Taking<'_>,
@@ -149,7 +148,7 @@ pub(super) fn compare_set(
     Ok(evaluated)
 }
 
-/// Adds what is right and wrong of the hits.
+/// Adds the accuracy of the hits.
 fn evaluate(
     run: &mut Run,
     kind: StructureKind,
@@ -166,8 +165,8 @@ fn evaluate(
     Ok(())
 }
 
-/// Traces rays through all systems in turns: once to warm up, then `repetitions` times. One answer for each
-/// contestant.
+/// Traces rays through all systems in turns: once to warm up, then `repetitions` times. Returns one answer
+/// for each contestant.
 ///
 /// # Errors
 /// The device fails, or rays do not finish.

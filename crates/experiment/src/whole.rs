@@ -1,11 +1,11 @@
-//! Checks that a result is whole: one that is not is refused, since nobody could see it in a picture or a
-//! table.
+//! Checks that a result is complete. An incomplete result is refused, since nobody could recognise it in a
+//! picture or a table.
 
 use crate::error::ExperimentError;
 use crate::jobs::{AovImage, AovSelection, RenderOutput};
 use rasray_report::Run;
 
-/// Refuses what was traced through a structure with holes, or with rays left unanswered.
+/// Refuses the run of a structure with missing entries, or with rays left unanswered.
 ///
 /// # Errors
 /// [`ExperimentError::MissingEntries`] or [`ExperimentError::Unanswered`], naming the system.
@@ -25,7 +25,7 @@ impl RenderOutput {
     /// Refuses an output that lacks pixels or a wanted image.
     ///
     /// # Errors
-    /// [`ExperimentError::MissingPixels`], naming the image that is not whole.
+    /// [`ExperimentError::MissingPixels`], naming the image that is not complete.
     pub fn check_images(&self, aovs: AovSelection) -> Result<(), ExperimentError> {
         let pixels = self.width as usize * self.height as usize;
         let length = |aov| self.aovs.get(&aov).map_or(0, AovImage::pixels);
@@ -38,7 +38,7 @@ impl RenderOutput {
         Ok(())
     }
 
-    /// Pixels of the colour image that are not finite.
+    /// Returns the number of pixels of the colour image that are not finite.
     pub fn non_finite_pixels(&self) -> usize {
         self.beauty.iter().filter(|pixel| !pixel.iter().all(|value| value.is_finite())).count()
     }

@@ -1,4 +1,4 @@
-//! Work of the ray through each pixel's centre, and hit of the ray through any place of a picture.
+//! Work of the ray through each pixel's centre, and the hit of the ray through any place of a picture.
 
 use glam::Vec2;
 use rasray_ads::{Counters, Ray, RayWork, TraceMode};
@@ -18,10 +18,10 @@ use crate::rays::{RayFlags, RaySource, from_shading};
 use rasray_report::Run;
 use rasray_report::figures::WorkMap;
 
-/// Most rays that are traced at a time.
+/// Largest number of rays that are traced at a time.
 const BATCH: usize = 131_072;
 
-/// A map for each system, kept with the system's run of camera rays, or its first.
+/// Makes a map for each system, which belongs to the system's run of camera rays, or else to its first run.
 pub(super) fn work_maps(
     device: &Device,
     stage: &DeviceScene,
@@ -41,14 +41,14 @@ pub(super) fn work_maps(
     Ok(maps)
 }
 
-/// Work of the ray through each pixel's centre in a structure of this spec, built as seen from `eye` (metres,
-/// relative to the frame origin); its run is 0. Absent where the structure counts nothing per ray. The size
-/// is in pixels.
+/// Measures the work of the ray through each pixel's centre in a structure of this spec, built as seen from
+/// `eye` (metres, relative to the frame origin); the map's run is 0. Returns `None` if the structure counts
+/// nothing per ray. The size is in pixels.
 ///
-/// Rays that write down their own work are slower, so the map has a structure of its own.
+/// Rays that record their own work are slower, so the map has a structure of its own.
 ///
 /// # Errors
-/// The device lacks something or fails, or the structure or rays do not become complete.
+/// The device lacks a feature or fails, or the structure or rays do not become complete.
 pub fn work_per_pixel(
     device: &Device,
     stage: &DeviceScene,
@@ -72,9 +72,9 @@ pub fn work_per_pixel(
     }))
 }
 
-/// Finds the hit of the ray through a place of a picture (pixels from its left top corner; through the centre
+/// Finds the hit of the ray through a place of a picture (pixels from the left top corner; through the centre
 /// of a lens) in a structure that is built: metres along the ray, and the triangle unless a fragment does not
-/// keep it. Absent where it leaves the scene. The size is in pixels.
+/// keep it. Returns `None` if the ray leaves the scene. The size is in pixels.
 ///
 /// # Errors
 /// The device fails, or the ray does not become complete.
@@ -92,18 +92,18 @@ pub fn hit_at(
     Ok(device_hits(outcome.hits).into_iter().next().flatten())
 }
 
-/// A view of one sample, of a size in pixels.
+/// Makes a view of one sample, of a size in pixels.
 fn view_of(camera: &Camera, [width, height]: [u32; 2]) -> View {
     View { camera: camera.clone(), width, height, samples: 1, seed: 0, sampler: Sampler::default() }
 }
 
-/// The ray of a picture through a place, pixels.
+/// Makes the ray of a picture through a place, pixels.
 fn through(view: &View, stage: &DeviceScene, place: Vec2) -> Ray {
     let flags = RayFlags::of(&stage.scene).camera;
     Ray { flags, ..from_shading(&camera_ray(view, stage.scene.frame_origin(), place)) }
 }
 
-/// Rays through the centres of all pixels, rows from the top.
+/// Makes rays through the centres of all pixels, rows from the top.
 fn centres(view: &View, stage: &DeviceScene) -> Vec<Ray> {
     let pixels = (0..view.height).flat_map(|y| (0..view.width).map(move |x| (x, y)));
     pixels.map(|(x, y)| through(view, stage, Vec2::new(x as f32 + 0.5, y as f32 + 0.5))).collect()

@@ -1,4 +1,4 @@
-//! Experiments as a program of one's own runs them: without a command line.
+//! Tests of experiments as another program runs them: without a command line.
 
 #[path = "library/further_images.rs"]
 mod further_images;
@@ -92,7 +92,8 @@ fn systems_are_compared_on_the_same_rays_and_a_wrong_hit_is_counted() {
         );
     }
 
-    // Cells by themselves: the same answers, each told of as it is whole; another set is not traced.
+    // Cells by themselves give equal answers, each reported as soon as it is complete; another set is not
+    // traced.
     let mut one = job(&loaded, &names, &sets);
     one.only = Some(BTreeSet::from([3]));
     let mut told = Vec::new();
@@ -111,7 +112,7 @@ fn systems_are_compared_on_the_same_rays_and_a_wrong_hit_is_counted() {
         .expect("the device works");
     assert_eq!(first.places, [0, 1], "systems take turns on a set");
 
-    // The hits again, but for one that is lost.
+    // The hits are given again, except one, which is lost.
     let set = kept.sets.swap_remove(0);
     let mut hits = set.answers[0].hits.clone();
     let sure = |ray: usize| !set.truth[ray].ambiguous && set.truth[ray].primitive != PRIMITIVE_NONE;
@@ -136,7 +137,7 @@ fn what_lists_hold_is_counted_where_it_is_asked_for() {
     let names = ["mmrt", "selective", "bvh"];
     let mut job = job(&loaded, &names, &[RaySet::Incoherent]);
     for config in &mut job.systems[..2] {
-        // Fragments alone: entries of conservative lists are no layers.
+        // Only fragments are counted: entries of conservative lists are not layers.
         let fragments = OptionValues::default().with("coverage", Value::Word("exact"));
         config.options = fragments.with("resolution", 32);
     }
@@ -204,7 +205,7 @@ fn a_hard_case_has_a_verdict_and_a_wrong_answer_breaks_it() {
     assert_eq!(met(&with_given), [Some(true), Some(false)]);
 }
 
-/// An image of one sample per pixel, through a tree.
+/// Renders an image of one sample per pixel, through a tree.
 fn render(name: &str, integrator: (&str, OptionValues), [width, height]: [u32; 2]) -> RenderOutput {
     let mut loaded = load(OsStr::new(name)).expect("a built-in scene");
     loaded.light(None);
@@ -229,8 +230,8 @@ fn render(name: &str, integrator: (&str, OptionValues), [width, height]: [u32; 2
     backend.render(&job, &mut kept, &mut |_| ControlFlow::Continue(())).expect("the device works")
 }
 
-/// The scene says how many pixels show a mirror first, counted when it was made: all other surfaces are
-/// Lambertian.
+/// Checks the share against the scene, which knows how many pixels show a mirror first, counted when it was
+/// made; all other surfaces are Lambertian.
 #[test]
 fn the_share_of_samples_that_are_traced_on_is_that_of_pixels_with_a_mirror() {
     for (name, expected) in [("mirror-hall:0", 0.0), ("mirror-hall:40", 0.4)] {
@@ -242,8 +243,9 @@ fn the_share_of_samples_that_are_traced_on_is_that_of_pixels_with_a_mirror() {
     }
 }
 
-/// Bytes of the buffers of an image, slot by slot: ray 48, hit 16, traversal 64, lists 16 and surface 128
-/// bytes; per pixel of the film 16; the header of a queue, its two placeholders, and what the film counts.
+/// Checks the bytes of the buffers of an image, slot by slot: ray 48, hit 16, traversal 64, lists 16 and
+/// surface 128 bytes; per pixel of the film 16; the header of a queue, its two placeholders, and the counters
+/// of the film.
 #[test]
 fn bytes_of_an_image_are_those_of_its_slots_and_pixels() {
     let slots = 32 * 24;
@@ -258,8 +260,8 @@ fn bytes_of_an_image_are_those_of_its_slots_and_pixels() {
     assert_eq!(memory.by_part["image surfaces"], 128 * slots);
 }
 
-/// The time of fetching surfaces is apart from that of shading them, and what fetches by drawing has bytes of
-/// its own.
+/// Checks that the time of fetching surfaces is separate from the time of shading them, and that buffers for
+/// fetching by drawing have bytes of their own.
 #[test]
 fn fetching_by_drawing_is_a_stage_and_a_part_of_memory() {
     let path = |fetch: &'static str| {
@@ -288,8 +290,8 @@ fn fetching_by_drawing_is_a_stage_and_a_part_of_memory() {
     assert!(drawn.iter().all(|pass| pass.stage.as_deref() == Some("surfaces")), "{drawn:?}");
 }
 
-/// Whatever the job before was: at another moment, of another size, seed, share, system or part that is
-/// built.
+/// Checks pictures after any job before: at another moment, of another size, seed, share, system or part that
+/// is built.
 #[test]
 fn pictures_do_not_depend_on_what_was_kept() {
     let mut loaded = load(OsStr::new("walker:8k")).expect("a built-in scene");
@@ -317,13 +319,14 @@ fn pictures_do_not_depend_on_what_was_kept() {
         (1.0, "bvh", &small, None, moving),
         (1.25, "bvh", &small, None, moving),
         (1.25, "brute-force", &small, None, moving),
-        // Its hits are of fragments.
+        // The hits of this system are of fragments.
         (1.25, "hu", &small, None, moving),
         (1.5, "bvh", &small, None, objects),
         (1.75, "bvh", &small, None, objects),
     ] {
         loaded.show(seconds, None).expect("it moves");
-        // Nothing has moved since the frame before: what was built is of another one.
+        // Nothing has moved since the frame before, but the structure that was built is that of another
+        // frame.
         let step = if refresh == objects { 0.0 } else { 0.04 };
         let before =
             Moment { seconds: seconds - step, clips: loaded.moment.clone().expect("it is posed").clips };
@@ -352,11 +355,12 @@ fn pictures_do_not_depend_on_what_was_kept() {
         kept_kernels += u32::from(after.times.first_use_ms.is_none());
         assert!(fresh.times.first_use_ms.is_some());
     }
-    // At 0.5 s, at 1.25 s and at 1.75 s.
+    // The kernels are kept at 0.5 s, at 1.25 s and at 1.75 s.
     assert_eq!(kept_kernels, 3);
 }
 
-/// An option that asks for a feature that the device lacks is an error of the job, which names the option.
+/// Checks that an option which asks for a missing feature of the device gives an error of the job that names
+/// the option.
 #[test]
 fn an_option_whose_feature_the_device_lacks_is_to_be_left_out() {
     let mut loaded = load(OsStr::new("cornell")).expect("a built-in scene");

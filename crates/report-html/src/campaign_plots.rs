@@ -20,8 +20,8 @@ struct Measure {
     title: &'static str,
     /// Label of the axis.
     words: &'static str,
-    /// Name of the repeated times in the spread of a run, and the function that converts a time into the
-    /// result.
+    /// Name of the repeated times in the spread of a run, from which the error bar of the result is computed;
+    /// absent where the result has no repeated times.
     spread: Option<&'static str>,
     is_error: bool,
 }

@@ -1,16 +1,16 @@
-//! Options that address one of the systems of a comparison.
+//! Assigned options, each of which addresses one of the systems of a comparison.
 
 use rasray_options::Value;
 use rasray_systems::{Preset, System};
 
 use super::error::SelectionError;
 
-/// An option of one system, or of one preset of it, with values that it takes in turns.
+/// Option of one system, or of one preset of it, with values that it takes in turns.
 pub(super) struct Assigned {
     pub(super) system: &'static System,
     pub(super) preset: Option<Preset>,
     pub(super) option: &'static str,
-    /// Each value, and how it was written with the option.
+    /// Values, each with the option and value as they were written.
     pub(super) values: Vec<(Value, String)>,
 }
 

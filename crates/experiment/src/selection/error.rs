@@ -1,9 +1,9 @@
-//! Why systems, presets and options do not go together.
+//! Errors of systems, presets and options that do not go together.
 
 use rasray_options::{OptionRow, ValueError};
 use rasray_systems::{Preset, System};
 
-/// Why systems, presets and options do not go together.
+/// Reason for which systems, presets and options do not go together.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum SelectionError {
@@ -26,7 +26,7 @@ pub enum SelectionError {
     /// None of several systems has an option.
     #[error("none of the systems {} has an option {option}", names(systems))]
     NoneHasOption {
-        /// The systems.
+        /// Systems without the option.
         systems: Vec<&'static System>,
         /// The option.
         option: &'static str,
@@ -34,7 +34,7 @@ pub enum SelectionError {
     /// None of several systems has a preset.
     #[error("none of the systems {} has the preset {}", names(systems), preset.name())]
     NoneHasPreset {
-        /// The systems.
+        /// Systems without the preset.
         systems: Vec<&'static System>,
         /// The preset.
         preset: Preset,
@@ -51,24 +51,24 @@ pub enum SelectionError {
         /// The preset.
         preset: Preset,
     },
-    /// An assignment that addresses nothing.
+    /// The assignment addresses nothing.
     #[error("'{assignment}' is not of the form SYSTEM.OPTION=VALUE or SYSTEM-PRESET.OPTION=VALUE")]
     Form {
-        /// As it was written.
+        /// Assignment as it was written.
         assignment: String,
     },
     /// An assignment addresses a system that is not registered.
     #[error("'{assignment}': there is no system {system}")]
     UnknownSystem {
-        /// As it was written.
+        /// Assignment as it was written.
         assignment: String,
-        /// The name.
+        /// Name of the system.
         system: String,
     },
     /// An assignment addresses an option that its system lacks.
     #[error("'{assignment}': system {} has no option {option}", system.name)]
     UnknownOption {
-        /// As it was written.
+        /// Assignment as it was written.
         assignment: String,
         /// The system.
         system: &'static System,
@@ -78,16 +78,16 @@ pub enum SelectionError {
     /// An assignment has a value that its option does not take.
     #[error("'{assignment}': {source}")]
     Value {
-        /// As it was written.
+        /// Assignment as it was written.
         assignment: String,
-        /// The option.
+        /// Option that the assignment addresses.
         row: &'static OptionRow,
-        /// Error that names the values it takes.
+        /// Error that names the accepted values.
         source: ValueError,
     },
 }
 
-/// Names with commas between them.
+/// Joins names with commas.
 fn names(systems: &[&'static System]) -> String {
     systems.iter().map(|system| system.name).collect::<Vec<_>>().join(", ")
 }

@@ -1,4 +1,4 @@
-//! Images in addition to the colours, against the scene itself and against other pictures.
+//! Tests of images in addition to the colours, against the scene itself and against other pictures.
 
 use std::ffi::OsStr;
 use std::ops::ControlFlow;
@@ -75,7 +75,7 @@ fn point(output: &RenderOutput, aov: Aov, pixel: usize) -> DVec3 {
     DVec3::from_array([0, 1, 2].map(|axis| floats(output, aov)[axis][pixel].into()))
 }
 
-/// A triangle of a scene by its global id: its instance, its corners in the world and their texture
+/// Returns a triangle of a scene by its global id: its instance, its corners in the world and their texture
 /// coordinates.
 fn triangle(scene: &Scene, id: u32) -> (usize, [DVec3; 3], Option<[DVec2; 3]>) {
     let mut local = id as usize;
@@ -95,14 +95,14 @@ fn triangle(scene: &Scene, id: u32) -> (usize, [DVec3; 3], Option<[DVec2; 3]>) {
     panic!("the scene has no triangle {id}")
 }
 
-/// Weights of the corners of a triangle at a point of it.
+/// Returns the weights of the corners of a triangle at a point of it.
 fn weights([a, b, c]: [DVec3; 3], point: DVec3) -> [f64; 3] {
     let normal = (b - a).cross(c - a);
     let part = |from: DVec3, to: DVec3| (from - point).cross(to - point).dot(normal) / normal.dot(normal);
     [part(b, c), part(c, a), part(a, b)]
 }
 
-/// Pixels from the lower left, of a perspective.
+/// Projects a point by a perspective, pixels from the lower left.
 fn projected(camera: &Camera, point: DVec3) -> DVec2 {
     let local = camera.world_from_camera.inverse().transform_point3(point);
     let half = DVec2::from_array(camera.half_extents(SIZE[0], SIZE[1]));
@@ -110,7 +110,7 @@ fn projected(camera: &Camera, point: DVec3) -> DVec2 {
     0.5 * (across + 1.0) * DVec2::new(SIZE[0].into(), SIZE[1].into())
 }
 
-/// By the triangles that the scene itself has, through triangles of trees and of fragments alike.
+/// Compares images with the triangles of the scene itself, through trees and through fragments alike.
 #[test]
 fn what_a_pixel_shows_is_what_the_scene_has_there() {
     let loaded = scene("atrium");
@@ -155,7 +155,8 @@ fn what_a_pixel_shows_is_what_the_scene_has_there() {
     }
 }
 
-/// Bit for bit the picture with one bounce, and the picture less that.
+/// Checks bit for bit that direct light is the picture with one bounce, and indirect light the difference to
+/// the picture.
 #[test]
 fn direct_and_indirect_light_are_the_picture() {
     let mut backend = device();
@@ -191,7 +192,7 @@ fn direct_and_indirect_light_are_the_picture() {
     }
 }
 
-/// Pictures of other seeds differ as much as the variance says, where samples are independent.
+/// Checks that pictures of other seeds differ as much as the variance says, where samples are independent.
 #[test]
 fn the_variance_is_that_of_pictures_with_other_random_numbers() {
     let (loaded, mut backend) = (scene("cornell"), device());
@@ -201,7 +202,7 @@ fn the_variance_is_that_of_pictures_with_other_random_numbers() {
             render(&mut *backend, &job(&loaded, "bvh", &frame, Aov::Variance.into()))
         })
         .collect();
-    // Without the lamp's edges: places within a pixel are spread evenly over its samples, and not
+    // Edges of the lamp are left out: places within a pixel are spread evenly over its samples, and not
     // independent.
     let is_dim = |pixel: usize| pictures.iter().all(|picture| picture.beauty[pixel].iter().all(|x| *x < 1.0));
     let dim: Vec<_> = (0..(SIZE[0] * SIZE[1]) as usize).filter(|pixel| is_dim(*pixel)).collect();
@@ -223,7 +224,8 @@ fn the_variance_is_that_of_pictures_with_other_random_numbers() {
     assert!(floats(&single, Aov::Variance).iter().flatten().all(|value| *value == 0.0));
 }
 
-/// Every point leads to where the processor poses it one frame earlier, by whatever moves it.
+/// Checks that every point's motion leads to the place where the processor poses the point one frame earlier,
+/// whatever moves it.
 #[test]
 fn motion_leads_to_where_points_were_one_frame_before() {
     let mut backend = device();
@@ -262,7 +264,7 @@ fn motion_leads_to_where_points_were_one_frame_before() {
     }
 }
 
-/// Where the library is installed: noise goes, and what is lit stays.
+/// Checks, if the library is installed, that noise is removed and light is kept.
 #[test]
 fn a_denoised_picture_is_nearer_to_the_converged_one() {
     let denoiser = match Denoiser::find() {
@@ -281,7 +283,7 @@ fn a_denoised_picture_is_nearer_to_the_converged_one() {
     let images = NoisyPicture { size: [64, 64], colour: &noisy.beauty, albedo: &albedo, normal: &normal };
     let clean = denoiser.denoise(&images).expect("it works");
     let error = |pixels: &[[f32; 3]]| {
-        // Relative, so that the lamp does not count for all.
+        // The error is relative, so that the lamp does not dominate.
         let pairs = pixels.as_flattened().iter().zip(converged.beauty.as_flattened());
         let squared = pairs.map(|(one, other)| ((one - other) / (other + 0.01)).powi(2)).sum::<f32>();
         (squared / (3 * pixels.len()) as f32).sqrt()

@@ -143,7 +143,7 @@ fn numbers_that_change_change_the_page() {
     assert_eq!(page(&report, &figures), before, "the same report makes the same page");
 }
 
-/// Returns the contents of a bar chart: each bar's name, and the names and sizes of its parts.
+/// Returns the contents of bar charts: the title of each, and each bar's name with the sum of its parts.
 fn bars(page: &str, id: &str) -> Vec<(String, Vec<(String, f64)>)> {
     let start = "<script type=\"application/json\" id=\"plots\">";
     let plots = page.split(start).nth(1).and_then(|rest| rest.split("</script>").next()).expect("plots");
