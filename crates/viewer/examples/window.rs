@@ -1,5 +1,5 @@
-//! A window without the command: `cargo run -p rasray-viewer --features window --example window -- cornell`.
-//! Pictures are saved as .ppm, and how `rasray render` makes them is printed.
+//! Window without the command: `cargo run -p rasray-viewer --features window --example window -- cornell`.
+//! Pictures are saved as .ppm, and the `rasray render` command that makes each is printed.
 
 use rasray_experiment::{
     DeviceChoice, Frame, INTEGRATORS, IntegratorSpec, OccluderKind, OptionValues, Primary, Sampler,
@@ -40,7 +40,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     Ok(())
 }
 
-/// The scene of a name, and what a session of it begins with.
+/// Opens the scene of a name, and returns the state that its session begins with.
 fn opened(name: &OsStr) -> Result<Opened, LoadError> {
     let mut loaded = load(name)?;
     loaded.light(None);

@@ -1,4 +1,4 @@
-//! A camera that is moved by hand.
+//! Camera that is moved by hand.
 
 use crate::error::ViewerError;
 use glam::{DMat3, DVec3};
@@ -6,28 +6,28 @@ use rasray_options::text::{number, numbers};
 use rasray_scene::{Camera, Lens, Projection};
 use rasray_scene_source::placed_view;
 
-/// Largest angle up and down, radians: short of straight up, where a camera without roll has no right side.
+/// Largest angle up and down, radians: less than straight up, where a camera without roll has no right side.
 const STEEPEST: f64 = 89.0 * std::f64::consts::PI / 180.0;
 
-/// Numbers of a camera as the command line has them: eye and target in metres, the full vertical angle of
+/// Numbers of a camera in the form of the command line: eye and target in metres, the full vertical angle of
 /// view in degrees.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rounded {
     /// Position of the eye.
     pub eye: String,
-    /// Point that it looks at.
+    /// Point at which the camera looks.
     pub target: String,
-    /// Angle of view.
+    /// Full vertical angle of view, degrees.
     pub fov: String,
-    /// Its lens, where it has one.
+    /// Lens of the camera; absent for a pinhole.
     pub lens: Option<Lens>,
 }
 
 impl Rounded {
-    /// The camera that these numbers stand for.
+    /// Returns the camera that these numbers describe.
     ///
     /// # Errors
-    /// Eye and target are one place.
+    /// Eye and target coincide.
     pub fn camera(&self) -> Result<Camera, ViewerError> {
         let point = |text| numbers(text, &[',']);
         let (eye, target) = point(&self.eye).zip(point(&self.target)).ok_or(ViewerError::Nowhere)?;
@@ -36,28 +36,28 @@ impl Rounded {
     }
 }
 
-/// From which side a scene is seen: y is up, and its front is towards +z, as glTF has it.
+/// Side from which a scene is seen: y is up, and the front is towards +z, as in glTF.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Side {
-    /// From +z.
+    /// View from +z.
     Front,
-    /// From -z.
+    /// View from -z.
     Back,
-    /// From +x.
+    /// View from +x.
     Right,
-    /// From -x.
+    /// View from -x.
     Left,
-    /// From +y, with -z upwards in the picture.
+    /// View from +y, with -z upwards in the picture.
     Top,
-    /// From -y, with +z upwards in the picture.
+    /// View from -y, with +z upwards in the picture.
     Bottom,
 }
 
 impl Side {
-    /// All of them, each with its opposite.
+    /// All sides, each followed by its opposite.
     pub const ALL: [Self; 6] = [Self::Front, Self::Back, Self::Right, Self::Left, Self::Top, Self::Bottom];
 
-    /// A label.
+    /// Returns the label of the side.
     pub fn name(self) -> &'static str {
         match self {
             Self::Front => "front",
@@ -69,7 +69,7 @@ impl Side {
         }
     }
 
-    /// From the scene to the camera.
+    /// Returns the direction from the scene to the camera.
     fn direction(self) -> DVec3 {
         match self {
             Self::Front => DVec3::Z,
@@ -82,21 +82,22 @@ impl Side {
     }
 }
 
-/// Position of a camera and the point that it turns around, world, metres. It stays upright: y is up.
+/// Position of a camera and the point that it turns around, in the world, metres. The camera stays upright: y
+/// is up.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CameraControl {
     eye: DVec3,
     target: DVec3,
     /// Full vertical angle of view, degrees.
     fov: f64,
-    /// Its focus stays as far away.
+    /// Lens, whose distance of focus is kept when the camera moves.
     lens: Option<Lens>,
 }
 
 impl CameraControl {
-    /// Takes over from a camera, whose picture has that many pixels a row and rows. It turns around the point
-    /// in front of it that is `distance` metres away. A roll is lost; a parallel projection becomes a
-    /// perspective that sees as much at that point.
+    /// Takes over from a camera whose picture is `width` by `height` pixels. The control turns around the
+    /// point in front of the camera that is `distance` metres away. A roll is lost; a parallel projection
+    /// becomes a perspective that sees as much at that point.
     pub fn from_camera(camera: &Camera, [width, height]: [u32; 2], distance: f64) -> Self {
         let frame = &camera.world_from_camera;
         let eye = frame.translation;
@@ -110,12 +111,13 @@ impl CameraControl {
         let fov = 2.0 * tangent.atan().to_degrees();
         let (target, fov, lens) = (eye + forward * distance, fov.clamp(0.01, 175.0), camera.lens);
         let mut control = Self { eye, target, fov, lens };
-        // Not straight up or down.
+        // This keeps the view away from straight up or down.
         control.orbit(0.0, 0.0);
         control
     }
 
-    /// Its lens; a closed one, in focus where the camera turns around, where it has none.
+    /// Returns the lens; for a camera without one a closed lens whose focus is the point that the camera
+    /// turns around.
     pub fn lens(&self) -> Lens {
         self.lens.unwrap_or(Lens { aperture: 0.0, focus: self.distance() as f32 })
     }
@@ -130,18 +132,18 @@ impl CameraControl {
         self.lens = (lens.aperture > 0.0).then_some(lens);
     }
 
-    /// Turns towards a point, around which it turns from then on.
+    /// Turns towards a point, which is the centre of turns from then on.
     pub fn look_at(&mut self, point: DVec3) {
         if point.is_finite() && (point - self.eye).length() > 1.0e-9 * (1.0 + self.eye.length()) {
             self.target = point;
-            // Not straight up or down.
+            // This keeps the view away from straight up or down.
             self.orbit(0.0, 0.0);
         }
     }
 
-    /// Goes back or forward, and aside, so that a box (its least and greatest corner, world, metres) is in
-    /// the middle and a ball around it fits into a picture of that many pixels a row and rows. It looks in
-    /// the same direction.
+    /// Moves back or forward, and aside, so that a box (its least and greatest corner, in the world, metres)
+    /// is in the middle and a ball around it fits into a picture of `width` by `height` pixels. The direction
+    /// of view stays.
     pub fn frame_all(&mut self, (low, high): (DVec3, DVec3), [width, height]: [u32; 2]) {
         let radius =
             (0.5 * (high - low).length()).max(1.0e-6 * (1.0 + high.abs().max(low.abs()).max_element()));
@@ -155,7 +157,7 @@ impl CameraControl {
         }
     }
 
-    /// Looks at the target along an axis, as far away as it was.
+    /// Looks at the target along an axis, at the current distance.
     pub fn view_along(&mut self, side: Side) {
         self.eye = self.target + side.direction() * self.distance();
     }
@@ -164,14 +166,14 @@ impl CameraControl {
         (self.target - self.eye).length()
     }
 
-    /// Right, up and back.
+    /// Returns the directions right, up and back.
     fn axes(&self) -> DMat3 {
         let back = (self.eye - self.target).normalize_or(DVec3::Z);
         let right = DVec3::Y.cross(back).try_normalize().unwrap_or(DVec3::X);
         DMat3::from_cols(right, back.cross(right), back)
     }
 
-    /// The direction of `offset` turned around y and then up, not beyond [`STEEPEST`]; radians.
+    /// Returns the direction of `offset` turned around y and then up, but not beyond [`STEEPEST`]; radians.
     fn turned(offset: DVec3, around: f64, up: f64) -> DVec3 {
         let length = offset.length();
         let pitch = (offset.y / length).clamp(-1.0, 1.0).asin();
@@ -185,19 +187,19 @@ impl CameraControl {
         self.eye = self.target + Self::turned(self.eye - self.target, right, over);
     }
 
-    /// Turns where it stands, radians: to the right, and upwards.
+    /// Turns in place, radians: to the right, and upwards.
     pub fn look(&mut self, right: f64, up: f64) {
         self.target = self.eye + Self::turned(self.target - self.eye, -right, up);
     }
 
-    /// Moves along its own right and up, in heights of the picture at the target.
+    /// Moves along the camera's right and up, in heights of the picture at the target.
     pub fn pan(&mut self, right: f64, up: f64) {
         let height = 2.0 * self.distance() * (0.5 * self.fov.to_radians()).tan();
         let axes = self.axes();
         self.shift((axes.x_axis * right + axes.y_axis * up) * height);
     }
 
-    /// Goes nearer to the target (positive) or away from it, by a tenth of the distance a step.
+    /// Moves towards the target (positive) or away from it, by a tenth of the distance per step.
     pub fn zoom(&mut self, steps: f64) {
         let distance = self.distance() * 0.9_f64.powf(steps);
         if distance.is_finite() && distance > 1.0e-9 * (1.0 + self.eye.length()) {
@@ -205,7 +207,7 @@ impl CameraControl {
         }
     }
 
-    /// Flies: forward, right and up (along y), metres.
+    /// Flies forward, right and up (along y), metres.
     pub fn fly(&mut self, forward: f64, right: f64, up: f64) {
         let axes = self.axes();
         self.shift(axes.x_axis * right - axes.z_axis * forward + DVec3::Y * up);
@@ -218,8 +220,8 @@ impl CameraControl {
         }
     }
 
-    /// The numbers of the camera, with no more digits than can be seen: a thousandth of a thousandth of the
-    /// distance to the target.
+    /// Returns the numbers of the camera, rounded to a millionth of the distance to the target, since no more
+    /// digits can be seen.
     pub fn rounded(&self) -> Rounded {
         let digits = (6.0 - self.distance().log10().ceil()).clamp(0.0, 15.0) as usize;
         let number = |value: f64| trimmed(&format!("{value:.digits$}"));
@@ -233,7 +235,7 @@ impl CameraControl {
     }
 }
 
-/// A number without zeros at its end.
+/// Removes the zeros at the end of a number.
 fn trimmed(text: &str) -> String {
     let text = if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { text };
     if text == "-0" { "0".to_owned() } else { text.to_owned() }

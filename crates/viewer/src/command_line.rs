@@ -1,9 +1,9 @@
-//! The command line that makes a picture again.
+//! Command line that makes a picture again.
 
 use rasray_experiment::{Adaptive, Frame, OccluderKind, Primary, SystemConfig};
 use rasray_scene::BackFaces;
 
-/// A word as a shell reads it back.
+/// Quotes a word so that a shell reads it back.
 pub fn quoted(word: &str) -> String {
     let plain = |character: char| character.is_ascii_alphanumeric() || "_@%+=:,./-".contains(character);
     if !word.is_empty() && word.chars().all(plain) {
@@ -13,7 +13,7 @@ pub fn quoted(word: &str) -> String {
     }
 }
 
-/// The words that make a frame.
+/// Returns the words of the command line that make a frame.
 pub(crate) fn frame_words(frame: &Frame) -> Vec<String> {
     let Frame { integrator, width, height, spp, adaptive, seed, sampler, primary, occluder, back_faces } =
         frame;
@@ -51,7 +51,7 @@ pub(crate) fn frame_words(frame: &Frame) -> Vec<String> {
     words
 }
 
-/// The words that make a structure.
+/// Returns the words of the command line that make a structure.
 pub(crate) fn system_words(config: &SystemConfig) -> Vec<String> {
     let mut words = vec![
         "--system".to_owned(),

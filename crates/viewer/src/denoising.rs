@@ -1,50 +1,50 @@
-//! The picture without noise, now and then while it refines.
+//! Denoising of the picture, from time to time while it refines.
 
 use std::time::{Duration, Instant};
 
 use rasray_denoise::{DenoiseError, Denoiser, NoisyPicture};
 use rasray_experiment::{Built, DeviceScene, ExperimentError, ProgressiveImage};
 
-/// From the end of one to the begin of the next, in times of what the last one took: a fifth of the time is
-/// spent on it.
+/// Pause between two denoisings, in multiples of the last one's duration: a fifth of the time is spent on
+/// denoising.
 const PAUSE: u32 = 4;
 
-/// Denoiser of pictures, with what it knows of the one that refines.
+/// Denoiser of pictures, with the auxiliary images of the picture that refines.
 pub(crate) struct Denoising {
     denoiser: Denoiser,
     /// Albedo and normal of the picture, once they were asked for.
     fed: Option<[Vec<[f32; 3]>; 2]>,
-    /// When the picture is denoised next while it refines; absent: at once.
+    /// Time of the next denoising while the picture refines; absent for at once.
     due: Option<Instant>,
 }
 
 impl Denoising {
-    /// With the library of this machine.
+    /// Makes a denoiser with the library of this machine.
     pub(crate) fn find() -> Result<Self, DenoiseError> {
         Ok(Self { denoiser: Denoiser::find()?, fed: None, due: None })
     }
 
-    /// The samples are of another picture from now on.
+    /// Begins another picture, to which all following samples belong.
     pub(crate) fn begin(&mut self) {
         (self.fed, self.due) = (None, None);
     }
 
-    /// Name and version of the library.
+    /// Returns name and version of the library.
     pub(crate) fn version(&self) -> &str {
         self.denoiser.version()
     }
 
-    /// True if it is time for it while the picture refines.
+    /// True if the next denoising is due while the picture refines.
     pub(crate) fn is_due(&self) -> bool {
         self.due.is_none_or(|due| Instant::now() >= due)
     }
 
-    /// True if it knows albedo and normal of the picture.
+    /// True if the denoiser has albedo and normal of the picture.
     pub(crate) fn is_fed(&self) -> bool {
         self.fed.is_some()
     }
 
-    /// Feeds it with those of what is rendered.
+    /// Makes albedo and normal of the rendered scene for the denoiser.
     pub(crate) fn feed(
         &mut self,
         rendering: &ProgressiveImage,
@@ -55,7 +55,7 @@ impl Denoising {
         Ok(())
     }
 
-    /// The picture of this size without noise; it was fed.
+    /// Returns the picture of this size without noise; [`Denoising::feed`] was called before.
     pub(crate) fn denoised(
         &mut self,
         size: [u32; 2],

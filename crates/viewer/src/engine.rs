@@ -1,4 +1,4 @@
-//! Pictures of settings, step by step. What a change does not make necessary is kept.
+//! Engine that makes pictures of settings, step by step. A change repeats only the work that depends on it.
 
 use std::time::Instant;
 
@@ -25,27 +25,28 @@ use crate::traced::{Traced, exact_config, follow};
 
 /// Scene to look at.
 pub struct SceneSource {
-    /// As it was read: lit, and at rest.
+    /// Scene as it was read: lit, and at rest.
     pub loaded: LoadedScene,
-    /// The clip that moves it; absent: all that can be played at once.
+    /// Name of the clip that moves the scene; absent for all clips that can be played together.
     pub clip: Option<String>,
-    /// True if everything is uploaded and compiled in, and not only what a picture can show.
+    /// True if all data is uploaded and compiled in, and not only the data that a picture can show.
     pub needs_all: bool,
-    /// The camera while nobody moves it.
+    /// Choice of the camera while nobody moves it.
     pub camera: Box<ChooseCamera>,
 }
 
 /// Result of a step.
 pub enum Step {
-    /// There is more to do; nothing new is to be seen.
+    /// Work in progress; there is no new picture.
     Working,
-    /// A picture.
+    /// New picture.
     Picture(Box<Picture>),
-    /// Nothing is left to do for these settings.
+    /// End of the work for these settings.
     Done,
 }
 
-/// Makes pictures on a device. What fails is made anew by the next settings.
+/// Engine that makes pictures on a device. After a failure, the next settings make everything anew that
+/// failed.
 pub struct Engine {
     device: Device,
     /// True if messages of the validation layer are errors.
@@ -55,23 +56,23 @@ pub struct Engine {
     choose: Box<ChooseCamera>,
     settings: Settings,
     stage: Option<(DeviceScene, Needs)>,
-    /// The time at which the stage is, seconds; absent at rest.
+    /// Time of the scene on the device, seconds; absent at rest.
     posed: Option<f64>,
-    /// True if the stage has the default light.
+    /// True if the scene on the device has the default light.
     has_default_light: bool,
     traced: Option<Traced>,
     exact: Option<Traced>,
     /// Film of the whole picture.
     film: Option<ProgressiveImage>,
     exact_film: Option<ProgressiveImage>,
-    /// Denoiser of the whole picture, once that was asked for.
+    /// Denoiser of the whole picture, once denoising was asked for.
     denoising: Option<Denoising>,
-    /// [`Picture::cut_rays`] of the whole picture, once it is complete.
+    /// Number [`Picture::cut_rays`] of the whole picture, once it is complete.
     cut_rays: u32,
-    /// Pictures while something moves.
+    /// Preview while something moves.
     preview: Option<Preview>,
     preview_size: PreviewSize,
-    /// Milliseconds since the last of these.
+    /// Milliseconds since the last picture of the preview.
     preview_ms: f64,
     /// True if films hold samples of other settings.
     stale: bool,
@@ -81,7 +82,7 @@ pub struct Engine {
 }
 
 impl Engine {
-    /// Nothing is made before the first step.
+    /// Makes an engine; nothing else is made before the first step.
     pub fn new(device: Device, validation: bool, source: SceneSource, settings: Settings) -> Self {
         let SceneSource { loaded, clip, needs_all, camera } = source;
         Self {
@@ -109,7 +110,7 @@ impl Engine {
         }
     }
 
-    /// Looks at another scene from now on. Settings of that scene must follow.
+    /// Changes to another scene. Settings of that scene must follow.
     pub fn show(&mut self, source: SceneSource) {
         let SceneSource { loaded, clip, needs_all, camera } = source;
         self.drop_for(Redo::ALL);
@@ -117,7 +118,7 @@ impl Engine {
         (self.needs_all, self.choose, self.posed) = (needs_all, camera, None);
     }
 
-    /// Changes the settings, and drops what must be made anew for them.
+    /// Changes the settings, and drops everything that must be made anew for them.
     pub fn apply(&mut self, settings: Settings) {
         let redo = Redo::between(&self.settings, &settings);
         self.settings = settings;
@@ -143,18 +144,18 @@ impl Engine {
         }
     }
 
-    /// Does the next piece of work: at most one wave of rays after what must be made, or a sample of a
-    /// picture while something moves. `say` is told in a few words what takes long.
+    /// Does the next piece of work: at most one wave of rays after everything that must be made, or a sample
+    /// of a picture while something moves. `say` receives a few words about work that takes long.
     ///
     /// # Errors
-    /// The settings ask for what cannot be, the device fails, or a structure or rays do not become complete.
-    /// The next step tries again.
+    /// The settings are impossible, the device fails, or a structure or rays do not become complete. The next
+    /// step tries again.
     pub fn step(&mut self, say: &mut dyn FnMut(&str)) -> Result<Step, ViewerError> {
         if self.done {
             return Ok(Step::Done);
         }
         let made = self.make(say);
-        // Films may lack what failed; those whose noise cannot be taken out are whole.
+        // After a failure films may lack samples, except after one of the denoiser, when they are whole.
         self.stale |= made.as_ref().is_err_and(|error| !matches!(error, ViewerError::Denoise(_)));
         let step = made?;
         match self.device.validation_messages().first() {
@@ -168,7 +169,7 @@ impl Engine {
     fn make(&mut self, say: &mut dyn FnMut(&str)) -> Result<Step, ViewerError> {
         self.settings.system.spec()?;
         if self.settings.denoised && self.denoising.is_none() {
-            // Before anything is rendered in vain.
+            // A missing denoiser is noticed before anything is rendered in vain.
             self.denoising = Some(Denoising::find()?);
         }
         let camera = self.prepare_scene(say)?;
@@ -194,13 +195,13 @@ impl Engine {
         }
     }
 
-    /// All that there are.
+    /// Returns all existing films.
     fn films(&mut self) -> impl Iterator<Item = &mut ProgressiveImage> {
         let preview = self.preview.iter_mut().flat_map(Preview::films);
         self.film.iter_mut().chain(&mut self.exact_film).chain(preview)
     }
 
-    /// The scene on the device at its time, and the camera there.
+    /// Prepares the scene on the device at its time, and returns the camera there.
     fn prepare_scene(&mut self, say: &mut dyn FnMut(&str)) -> Result<Camera, ViewerError> {
         let seconds = self.settings.seconds;
         self.scene.show(seconds)?;
@@ -252,7 +253,7 @@ impl Engine {
         Ok(camera)
     }
 
-    /// Pixels a row and rows of the picture that is being made.
+    /// Returns width and height of the picture in progress, pixels.
     fn picture_size(&self) -> [u32; 2] {
         let Frame { width, height, .. } = self.settings.frame;
         if self.settings.moving { self.preview_size.size([width, height]) } else { [width, height] }
@@ -264,13 +265,13 @@ impl Engine {
         stage.sample_as(&self.settings.frame)
     }
 
-    /// The configuration as a render has it.
+    /// Returns the configuration as a render has it.
     fn config(&self, camera: &Camera) -> SystemConfig {
         let Settings { system, frame, .. } = &self.settings;
         system.clone().serving(frame.workload()).seen_by(camera, frame)
     }
 
-    /// One wave of the whole picture. One that is complete is shown in another way.
+    /// Renders one wave of the whole picture. A complete picture is shown in another way.
     fn refine(&mut self, camera: Camera, say: &mut dyn FnMut(&str)) -> Result<Step, ViewerError> {
         let Self { device, stage, traced, film, settings, denoising, .. } = self;
         let (Some((stage, needs)), Some(traced)) = (stage, traced) else { return Ok(Step::Working) };
@@ -280,7 +281,7 @@ impl Engine {
             if !advance(device, film, traced, &mut self.sample_ms)? {
                 return Ok(Step::Working);
             }
-            // Once, as a render does.
+            // Faults are read once, as by a render.
             self.cut_rays = if is_complete(film) { film.warn_of_faults(device)?.cut } else { 0 };
         }
         self.done = is_complete(film);
@@ -306,7 +307,7 @@ impl Engine {
         Ok(step)
     }
 
-    /// A sample of the picture while something moves; as many as there is time for.
+    /// Renders samples of the preview while something moves, as many as there is time for.
     fn preview(
         &mut self,
         camera: Camera,
@@ -325,8 +326,8 @@ impl Engine {
             }
         });
         let full = [settings.frame.width, settings.frame.height];
-        // Settings change faster than waves end, and would start them over for ever: a step ends with a
-        // picture. Where all samples so far were quick, there is time for one more.
+        // Settings change faster than waves end, which would start them over for ever; therefore a step ends
+        // with a picture. If all samples so far were quick, there is time for one more.
         let (samples, of_a_sample) = loop {
             let started = Instant::now();
             while !(advance(device, films.next(), traced, &mut self.sample_ms)? && films.is_whole()) {}
@@ -345,7 +346,8 @@ impl Engine {
         self.picture(camera, pixels, samples, passes)
     }
 
-    /// One wave of the picture or of the same through a structure that is exact, whichever has fewer samples.
+    /// Renders one wave of the picture or of its counterpart through an exact structure, whichever has fewer
+    /// samples.
     fn difference(&mut self, camera: Camera, say: &mut dyn FnMut(&str)) -> Result<Step, ViewerError> {
         let config = exact_config(&self.settings.system);
         follow(&self.device, self.stage.as_ref(), self.posed, &mut self.exact, &config, say)?;
@@ -371,7 +373,7 @@ impl Engine {
         self.picture(camera, pixels, samples, passes)
     }
 
-    /// The map of what the rays through the pixels' centres cost.
+    /// Makes the map of the costs of the rays through the pixels' centres.
     fn work(&mut self, camera: Camera, say: &mut dyn FnMut(&str)) -> Result<Step, ViewerError> {
         let Self { device, stage, traced, settings, .. } = self;
         let (Some((stage, _)), Some(traced)) = (stage, traced) else { return Ok(Step::Working) };
@@ -391,8 +393,8 @@ impl Engine {
         self.picture(camera, pixels, samples, Vec::new())
     }
 
-    /// Traces the ray of a pick through one of its systems. The structure that is there is used where it is
-    /// of that system; one that is built for this is dropped.
+    /// Traces the ray of a pick through one of its systems. The existing structure is used if it is of that
+    /// system; one that is built for the pick is dropped.
     pub fn answer(&self, pick: &Pick, config: &SystemConfig) -> Answer {
         let system = format!("{} {}", config.system.name, config.preset.name());
         let is_there = pick.scene == self.settings.scene && pick.seconds == self.posed;
@@ -439,7 +441,7 @@ impl Engine {
     }
 }
 
-/// The film that is there, or a new one, whose kernels are compiled before it is timed.
+/// Returns the existing film, or a new one, whose kernels are compiled before it is timed.
 fn opened<'a>(
     device: &Device,
     stage: &DeviceScene,
@@ -458,7 +460,7 @@ fn opened<'a>(
     Ok(film.as_mut().expect("it was made just now"))
 }
 
-/// One wave; whether a sample is whole after it. Rays without an answer are an error.
+/// Renders one wave, and returns whether it completes a sample. Rays without an answer are an error.
 fn advance(
     device: &Device,
     film: &mut ProgressiveImage,

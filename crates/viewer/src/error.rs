@@ -1,45 +1,45 @@
-//! Why there is no picture, or no window.
+//! Errors for which there is no picture, or no window.
 
 use rasray_denoise::DenoiseError;
 use rasray_experiment::ExperimentError;
 use rasray_scene_source::LoadError;
 
-/// Why there is no picture, or no window. Messages are whole sentences without a full stop.
+/// Reason for which there is no picture, or no window. Messages are whole sentences without a full stop.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ViewerError {
     /// Making pictures failed.
     #[error(transparent)]
     Experiment(#[from] ExperimentError),
-    /// Noise cannot be taken out of the picture.
+    /// Denoising the picture failed.
     #[error(transparent)]
     Denoise(#[from] DenoiseError),
-    /// The scene has no such camera.
+    /// The scene has no camera of this index.
     #[error("the scene has no camera {index}")]
     NoCamera {
-        /// Its number, from 0.
+        /// Index of the camera, from 0.
         index: usize,
     },
-    /// A camera was moved to where no numbers are.
+    /// The camera was moved to a place that is not finite.
     #[error("the camera is not at a place that numbers can say")]
     Nowhere,
-    /// A map of work through a system that does not count it.
+    /// A map of work was asked of a system that does not count its work.
     #[error("system {system} does not count its work")]
     NotCounted {
-        /// The system.
+        /// Name of the system.
         system: &'static str,
     },
-    /// The picked surface is elsewhere now.
+    /// The picked surface is no longer where it was picked.
     #[error("the scene has moved since it was picked")]
     Moved,
-    /// Nothing names a display.
+    /// No environment variable names a display.
     #[error("there is no display for a window: neither DISPLAY nor WAYLAND_DISPLAY is set")]
     NoDisplay,
-    /// The window system gives no window.
+    /// The window system refuses a window.
     #[cfg(feature = "window")]
     #[error("there is no display for a window: {source}")]
     NoWindow {
-        /// Its error.
+        /// Error of the window system.
         source: Box<dyn std::error::Error + Send + Sync>,
     },
     /// The window cannot be drawn.

@@ -1,4 +1,4 @@
-//! Options as things to click on, made from their rows: none is named here.
+//! Controls for options, made from the rows of the options; no option is named here.
 
 use rasray_experiment::{ExperimentError, OptionValues, SystemConfig, one_system};
 use rasray_options::{Least, OptionRow, Unit, Values, Word};
@@ -7,20 +7,20 @@ use rasray_systems::{Preset, System};
 /// Control of an option.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Control {
-    /// On or off.
+    /// Switch between on and off.
     Switch,
-    /// One of several words.
+    /// Choice of one word among several.
     Choice(&'static [Word]),
-    /// A whole number from the first to the second.
+    /// Whole number from the first to the second value.
     Whole(u32, u32),
-    /// A number, what it counts, and whether it may be 0.
+    /// Number with its unit, and the least value, which tells whether it may be 0.
     Number(Unit, Least),
-    /// Text that says what it is for, such as `WxH` for `720x480`.
+    /// Text with a hint of its form, such as `WxH` for `720x480`.
     Text(&'static str),
 }
 
 impl Control {
-    /// The control of an option.
+    /// Returns the control of an option.
     pub fn of(row: &OptionRow) -> Self {
         match row.values {
             values if values.is_switch() => Self::Switch,
@@ -33,33 +33,33 @@ impl Control {
     }
 }
 
-/// A system, its preset, and what was set of its options.
+/// Choice of a system, its preset, and the options that were set.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SystemChoice {
     system: &'static System,
     preset: Preset,
-    /// Values set of its options; the preset decides all others.
+    /// Values of the options that were set; the preset decides all others.
     pub options: OptionValues,
 }
 
 impl SystemChoice {
-    /// As a configuration has them.
+    /// Makes the choice that a configuration has.
     pub fn new(config: &SystemConfig) -> Self {
         Self { system: config.system, preset: config.preset, options: config.options.clone() }
     }
 
-    /// The system.
+    /// Returns the system.
     pub fn system(&self) -> &'static System {
         self.system
     }
 
-    /// The preset.
+    /// Returns the preset.
     pub fn preset(&self) -> Preset {
         self.preset
     }
 
-    /// Changes to a system. Options mean something else there, so that all are left to the preset, which is
-    /// kept where the system has it.
+    /// Changes to a system. All options return to the preset, since they mean something else there; the
+    /// preset is kept if the system has it.
     pub fn choose_system(&mut self, system: &'static System) {
         if system != self.system {
             let preset = if system.presets.contains(&self.preset) { self.preset } else { system.presets[0] };
@@ -72,10 +72,10 @@ impl SystemChoice {
         self.preset = preset;
     }
 
-    /// The configuration.
+    /// Returns the configuration.
     ///
     /// # Errors
-    /// Values that do not go together, in words.
+    /// Values do not go together.
     pub fn config(&self) -> Result<SystemConfig, ExperimentError> {
         one_system(self.system, self.preset, &self.options)
     }

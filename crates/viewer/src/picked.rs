@@ -1,4 +1,4 @@
-//! A point of the scene that was picked in a picture, and what each system hits there.
+//! Point of the scene that was picked in a picture, and the hit of each system there.
 
 use glam::DVec3;
 use rasray_experiment::{Built, DeviceScene, ExperimentError, Frame, SystemConfig, hit_at};
@@ -7,27 +7,27 @@ use rasray_scene::{Camera, Projection, Scene};
 
 use crate::traced::Traced;
 
-/// A ray through a picture, and the systems that it is to be traced through.
+/// Ray through a picture, and the systems through which it is to be traced.
 #[derive(Clone, Debug)]
 pub struct Pick {
-    /// Its own number: of two picks the answers of the earlier one no longer count.
+    /// Number of the pick; after a new pick, the answers to an earlier one no longer count.
     pub number: u64,
-    /// From where the picture is seen.
+    /// Camera of the picture.
     pub camera: Camera,
-    /// Pixels a row and rows of the picture.
+    /// Width and height of the picture, pixels.
     pub size: [u32; 2],
-    /// From the left top corner, pixels.
+    /// Place in the picture from the left top corner, pixels.
     pub place: [f32; 2],
-    /// The scene and its time, as of the settings.
+    /// Number of the scene, as in the settings.
     pub scene: u32,
-    /// Seconds; absent at rest.
+    /// Time of the scene, seconds; absent at rest.
     pub seconds: Option<f64>,
-    /// One after the other.
+    /// Systems in the order in which they answer.
     pub systems: Vec<SystemConfig>,
 }
 
 impl Pick {
-    /// Its ray: from where, world, metres, and in which direction, a unit vector.
+    /// Returns the ray of the pick: its origin in the world, metres, and its direction, a unit vector.
     fn ray(&self) -> (DVec3, DVec3) {
         let [width, height] = self.size;
         let half = self.camera.half_extents(width, height);
@@ -46,8 +46,9 @@ impl Pick {
         }
     }
 
-    /// Hit in the structure of a configuration: in `traced` where that is of this configuration, else in one
-    /// that is built for the pick. The scene is given as it was read and as it is on the device.
+    /// Finds the hit in the structure of a configuration: in `traced` if that is of this configuration,
+    /// otherwise in a structure that is built for the pick. The scene is given as it was read and as it is on
+    /// the device.
     pub(crate) fn hit(
         &self,
         device: &Device,
@@ -81,19 +82,19 @@ impl Pick {
     }
 }
 
-/// A triangle in words of the scene.
+/// Description of a triangle by names of the scene.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PickedTriangle {
-    /// Its number over all instances.
+    /// Id of the triangle over all instances.
     pub id: u32,
-    /// Name of the instance, and the triangle's number there.
+    /// Name of the instance, and the index of the triangle in the instance.
     pub instance: (String, u32),
-    /// Name of its material.
+    /// Name of the triangle's material.
     pub material: String,
 }
 
 impl PickedTriangle {
-    /// The triangle of an id: ids count the triangles of all instances in the order of the scene.
+    /// Finds the triangle of an id: ids count the triangles of all instances in the order of the scene.
     pub(crate) fn of(scene: &Scene, id: u32) -> Option<Self> {
         let mut left = id as usize;
         for instance in &scene.instances {
@@ -115,13 +116,13 @@ impl PickedTriangle {
 /// Hit of a ray.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PickedHit {
-    /// World, metres.
+    /// Position in the world, metres.
     pub point: DVec3,
-    /// Along the view, metres.
+    /// Depth along the view, metres.
     pub depth: f64,
-    /// From where the ray starts, metres.
+    /// Distance from the origin of the ray, metres.
     pub distance: f64,
-    /// Absent where fragments do not keep it.
+    /// Triangle that was hit; absent where fragments do not keep it.
     pub triangle: Option<PickedTriangle>,
 }
 
@@ -130,23 +131,23 @@ pub struct PickedHit {
 pub struct Answer {
     /// Name and preset of the system.
     pub system: String,
-    /// Hit, if there is one; or why there is no answer.
+    /// Hit, or `None` for a miss; or the reason for which there is no answer.
     pub hit: Result<Option<PickedHit>, String>,
 }
 
-/// A pick with the answers so far, that of the system that is shown first.
+/// Pick with the answers so far, first the answer of the system that is shown.
 #[derive(Clone, Debug)]
 pub struct Picked {
-    /// Pick that was asked about.
+    /// Pick that the answers belong to.
     pub pick: Pick,
-    /// In the order of the systems.
+    /// Answers in the order of the systems.
     pub answers: Vec<Answer>,
     /// Number of answers still to come.
     pub awaited: usize,
 }
 
 impl Picked {
-    /// Hit of the system that is shown.
+    /// Returns the hit of the system that is shown.
     pub fn hit(&self) -> Option<&PickedHit> {
         self.answers.first()?.hit.as_ref().ok()?.as_ref()
     }

@@ -10,30 +10,30 @@ use rasray_scene::Camera;
 /// Meaning of the colours of a map.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Legend {
-    /// Colours from 0 to `bright`.
+    /// Colours of the values from 0 to `bright`.
     pub colours: &'static Scale,
-    /// From this value on pixels have the brightest colour.
+    /// Value from which on pixels have the brightest colour.
     pub bright: f64,
-    /// The greatest value.
+    /// Greatest value.
     pub most: f64,
-    /// The mean over all pixels.
+    /// Mean value over all pixels.
     pub mean: f64,
-    /// Things counted, or the unit measured in.
+    /// Name of the counted things, or unit of the values.
     pub unit: String,
 }
 
 impl Legend {
-    /// A value in words.
+    /// Writes a value in words.
     pub fn shown(value: f64) -> String {
         if value.fract() == 0.0 { grouped(value as u64) } else { format!("{value:.4}") }
     }
 
-    /// Mean and greatest value in words.
+    /// Writes mean and greatest value in words.
     pub fn extent(&self) -> String {
         format!("mean {:.4}, greatest {}", self.mean, Self::shown(self.most))
     }
 
-    /// The scale in a sentence.
+    /// Describes the scale in a sentence.
     pub fn described(&self) -> String {
         format!("{}: 0 (dark) to {} (bright), {}", self.unit, Self::shown(self.bright), self.extent())
     }
@@ -42,15 +42,15 @@ impl Legend {
 /// Pixels, rows from the top.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Pixels {
-    /// Linear Rec. 709, W/(sr m^2).
+    /// Radiance in linear Rec. 709, W/(sr m^2).
     Radiance(Vec<[f32; 3]>),
-    /// A map in colours of sRGB.
+    /// Colours of a map in sRGB, and their legend.
     Map(Vec<[u8; 3]>, Legend),
 }
 
 impl Pixels {
-    /// Three bytes of sRGB per pixel, of radiance as files of PNG are in this tone; maps have none. A number
-    /// is stops of exposure alone.
+    /// Returns three bytes of sRGB per pixel; radiance is converted as for files of PNG in this tone, while a
+    /// tone does not change maps. A number as the tone means stops of exposure.
     pub fn bytes(&self, tone: impl Into<Tone>) -> Vec<u8> {
         match self {
             Self::Radiance(radiance) => tone_map(radiance, tone),
@@ -58,7 +58,7 @@ impl Pixels {
         }
     }
 
-    /// A map of counts, logarithmic.
+    /// Makes a map of counts, with a logarithmic scale.
     pub(crate) fn of_counts(counts: &[u32], unit: &str) -> Self {
         let most = counts.iter().copied().max().unwrap_or(0);
         let mean = counts.iter().map(|count| f64::from(*count)).sum::<f64>() / counts.len().max(1) as f64;
@@ -70,9 +70,9 @@ impl Pixels {
         )
     }
 
-    /// A map of absolute differences: the greatest of a pixel's channels; black is none. A hundredth of the
-    /// pixels may be beyond the scale: else edges of lamps, which are far brighter than all they light, would
-    /// leave the rest dark.
+    /// Makes a map of absolute differences: the greatest over a pixel's channels; black means no difference.
+    /// A hundredth of the pixels may be beyond the scale: otherwise edges of lamps, which are far brighter
+    /// than everything that they light, would leave the rest dark.
     pub(crate) fn of_difference(one: &[[f32; 3]], other: &[[f32; 3]], exact: &str) -> Self {
         let far = |(one, other): (&[f32; 3], &[f32; 3])| {
             (0..3).map(|channel| f64::from((one[channel] - other[channel]).abs())).fold(0.0, f64::max)
@@ -83,7 +83,7 @@ impl Pixels {
         let mut sorted = differences.clone();
         sorted.sort_unstable_by(f64::total_cmp);
         let usual = sorted.len().checked_sub(1 + sorted.len() / 100).map_or(0.0, |place| sorted[place]);
-        // Where fewer pixels than that differ at all, all of them are seen.
+        // If fewer pixels than that differ at all, all of them are shown.
         let bright = if usual > 0.0 { usual } else { most };
         let scale = if bright > 0.0 { 1.0 / bright } else { 0.0 };
         let colours = differences.iter().map(|difference| colour(MAGMA, difference * scale)).collect();
@@ -92,27 +92,27 @@ impl Pixels {
     }
 }
 
-/// A picture and what it took.
+/// Picture with its costs.
 #[derive(Clone, Debug)]
 pub struct Picture {
-    /// Pixels a row.
+    /// Width in pixels.
     pub width: u32,
-    /// Rows.
+    /// Height in pixels.
     pub height: u32,
-    /// Row by row from the top left.
+    /// Pixels row by row from the top left.
     pub pixels: Pixels,
-    /// Settings that it was made from; while something moves it has fewer pixels.
+    /// Settings of the picture; while something moves, the picture has fewer pixels than they say.
     pub settings: Settings,
-    /// Samples per pixel in it.
+    /// Number of samples per pixel.
     pub samples: u32,
-    /// Name and version of its denoiser; absent without one.
+    /// Name and version of the denoiser; absent for a picture with noise.
     pub denoised: Option<String>,
-    /// Rays that would have passed more transparent surfaces than a ray may, once refinement has ended: what
-    /// lies behind is left out.
+    /// Number of rays that would have passed more transparent surfaces than a ray may, known once refinement
+    /// has ended; everything behind these surfaces is left out.
     pub cut_rays: u32,
-    /// From where.
+    /// Camera of the picture.
     pub camera: Camera,
-    /// Milliseconds of the last sample, as the host saw it.
+    /// Time of the last sample, measured by the host, milliseconds.
     pub sample_ms: f64,
     /// Times of the passes of builds, then of samples.
     pub passes: Vec<Pass>,

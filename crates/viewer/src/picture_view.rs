@@ -1,18 +1,18 @@
 //! Place and size of a picture in a window: fitted, or at a scale and moved by hand.
 
-/// Window pixels that a zoomed picture keeps in sight, along each side.
+/// Number of window pixels, along each side, that a zoomed picture keeps in sight.
 const IN_SIGHT: f32 = 32.0;
 
-/// Least and greatest window pixels per pixel of a picture, where it was zoomed.
+/// Least and greatest scale of a zoomed picture, in window pixels per pixel of the picture.
 const SCALES: [f32; 2] = [1.0 / 64.0, 64.0];
 
-/// Window pixels per pixel of a picture from which on its pixels are squares.
+/// Least scale at which pixels are drawn as squares, in window pixels per pixel of the picture.
 const SQUARES: f32 = 2.0;
 
-/// A rectangle of a window, pixels: the left top corner, then width and height.
+/// Rectangle of a window, pixels: the left top corner, then width and height.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Area {
-    /// Left and top.
+    /// Left and top coordinate.
     pub corner: [f32; 2],
     /// Width and height.
     pub size: [f32; 2],
@@ -23,26 +23,26 @@ impl Area {
         [0, 1].map(|axis| self.corner[axis] + 0.5 * self.size[axis])
     }
 
-    /// A point as shares of width and height; nothing outside.
+    /// Returns a point as shares of width and height; `None` outside the area.
     pub fn share(&self, point: [f32; 2]) -> Option<[f32; 2]> {
         let share = [0, 1].map(|axis| (point[axis] - self.corner[axis]) / self.size[axis]);
         share.iter().all(|share| (0.0..1.0).contains(share)).then_some(share)
     }
 
-    /// The point at shares of width and height.
+    /// Returns the point at shares of width and height.
     pub fn at(&self, share: [f32; 2]) -> [f32; 2] {
         [0, 1].map(|axis| self.corner[axis] + share[axis] * self.size[axis])
     }
 
-    /// The whole pixels of the window that it touches.
+    /// Returns the area rounded outwards to whole pixels of the window.
     pub fn whole(&self) -> Self {
         let corner = self.corner.map(f32::floor);
         Self { corner, size: [0, 1].map(|axis| (self.corner[axis] + self.size[axis]).ceil() - corner[axis]) }
     }
 
-    /// Pixels that a window shows of a picture that lies here, whose pixels are squares: per pixel of
-    /// `window`, which are whole ones, the pixel of the picture that its centre is in, and `around` beside
-    /// the picture. `pixels` has the picture's rows from the top.
+    /// Computes the pixels of a window over a picture that lies in this area and whose pixels are squares:
+    /// for each pixel of `window`, whose bounds are whole pixels, the pixel of the picture at its centre, and
+    /// `around` outside the picture. `pixels` has the picture's rows from the top.
     pub fn squares<Pixel: Copy>(
         &self,
         (picture, pixels): ([u32; 2], &[Pixel]),
@@ -69,50 +69,50 @@ impl Area {
 /// Layout of a picture in an area. All lengths are pixels of the window.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct PictureView {
-    /// Window pixels per pixel of the picture; absent where the picture is as large as it fits.
+    /// Scale in window pixels per pixel of the picture; absent if the picture is fitted to the area.
     scale: Option<f32>,
-    /// From the centre of the area to that of the picture.
+    /// Shift from the centre of the area to the centre of the picture.
     shift: [f32; 2],
 }
 
 impl PictureView {
-    /// As large as it fits, and with the window.
+    /// Fits the picture to the area, whatever the size of the window.
     pub fn fit(&mut self) {
         *self = Self::default();
     }
 
-    /// A pixel of the window per pixel of the picture, in the middle.
+    /// Makes a layout with one pixel of the window per pixel of the picture, in the middle.
     pub fn at_one_to_one() -> Self {
         Self { scale: Some(1.0), shift: [0.0; 2] }
     }
 
-    /// One to one where it is fitted, else fitted.
+    /// Changes a fitted picture to one to one, any other to fitted.
     pub fn toggle(&mut self) {
         *self = if self.is_fitted() { Self::at_one_to_one() } else { Self::default() };
     }
 
-    /// True if the picture is as large as it fits.
+    /// True if the picture is fitted to the area.
     pub fn is_fitted(&self) -> bool {
         self.scale.is_none()
     }
 
-    /// Window pixels per pixel of the picture; absent where it is as large as it fits.
+    /// Returns the scale in window pixels per pixel of the picture; `None` if it is fitted.
     pub fn chosen_scale(&self) -> Option<f32> {
         self.scale
     }
 
-    /// Window pixels per pixel of a picture of this size.
+    /// Returns the scale of a picture of this size, in window pixels per pixel of the picture.
     pub fn scale(&self, area: Area, picture: [u32; 2]) -> f32 {
         let fit = |axis: usize| area.size[axis] / picture[axis].max(1) as f32;
         self.scale.unwrap_or_else(|| fit(0).min(fit(1))).max(f32::MIN_POSITIVE)
     }
 
-    /// True if pixels of a picture of this size are squares; smaller ones are interpolated.
+    /// True if pixels of a picture of this size are drawn as squares; smaller pixels are interpolated.
     pub fn shows_squares(&self, area: Area, picture: [u32; 2]) -> bool {
         self.scale(area, picture) >= SQUARES
     }
 
-    /// Rectangle of a picture of this size; its corner is on a whole pixel of the window.
+    /// Returns the rectangle of a picture of this size, whose corner is on a whole pixel of the window.
     pub fn place(&self, area: Area, picture: [u32; 2]) -> Area {
         let scale = self.scale(area, picture);
         let size = picture.map(|side| side as f32 * scale);
@@ -121,7 +121,7 @@ impl PictureView {
         Area { corner, size }
     }
 
-    /// The shift, so that a part of the picture stays in the area.
+    /// Returns the shift, limited so that a part of the picture stays in the area.
     fn in_sight(&self, area: Area, size: [f32; 2]) -> [f32; 2] {
         [0, 1].map(|axis| {
             let most = (0.5 * (area.size[axis] + size[axis]) - IN_SIGHT).max(0.0);
@@ -129,7 +129,7 @@ impl PictureView {
         })
     }
 
-    /// Makes the picture larger by a factor; what is under `point` stays there.
+    /// Scales the picture by a factor; the part under `point` stays there.
     pub fn zoom(&mut self, factor: f32, point: [f32; 2], area: Area, picture: [u32; 2]) {
         let before = self.scale(area, picture);
         let after = (before * factor).clamp(SCALES[0].min(before), SCALES[1].max(before));
@@ -146,7 +146,8 @@ impl PictureView {
     /// Moves the picture in the area.
     pub fn shift(&mut self, by: [f32; 2], area: Area, picture: [u32; 2]) {
         let scale = self.scale(area, picture);
-        // From where it is seen to be, so that it moves at once where it was beyond sight.
+        // The shift starts from the visible place, so that the picture moves at once even if its shift was
+        // beyond the limit.
         let shift = self.in_sight(area, picture.map(|side| side as f32 * scale));
         *self = Self { scale: Some(scale), shift: [0, 1].map(|axis| shift[axis] + by[axis]) };
     }
@@ -185,7 +186,7 @@ mod tests {
             let before = view.place(AREA, picture).share(point).expect("on the picture");
             view.zoom(factor, point, AREA, picture);
             let after = view.place(AREA, picture).at(before);
-            // The corner is rounded before and after.
+            // The corner is rounded before and after the zoom.
             let rounded = 0.51 * (1.0 + factor);
             assert!((0..2).all(|axis| (after[axis] - point[axis]).abs() <= rounded), "{after:?}");
         }
@@ -229,7 +230,7 @@ mod tests {
         let shown = place.squares(([3, 2], b"abcdef"), window, b'.');
         let rows: Vec<_> = shown.chunks(6).map(|row| std::str::from_utf8(row).expect("letters")).collect();
         assert_eq!(rows, [".aabbc", ".ddeef", ".ddeef", "......"]);
-        // A picture that is larger than the window, and one of no pixels.
+        // The first picture is larger than the window, the second has no pixels.
         let large = Area { corner: [-1.0e4, -1.0e4], size: [3.0e4, 2.0e4] };
         assert_eq!(large.squares(([3, 2], b"abcdef"), window, b'.'), [b'e'; 24]);
         assert_eq!(place.squares(([0, 0], b""), window, b'.'), [b'.'; 24]);

@@ -1,38 +1,38 @@
-//! The time of an animation.
+//! Playback of an animation.
 
-/// Steps in a second, so that the time is a short number: the command line names exactly this moment.
+/// Number of steps per second, so that a time is a short number: the command line names exactly this moment.
 const STEPS: f64 = 1000.0;
 
-/// The time that is shown, and whether it runs.
+/// Time that is shown, and the state of playback.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Playback {
-    /// Seconds, in `0..=duration` while it plays; absent at rest.
+    /// Time in seconds, in `0..=duration` during playback; absent at rest.
     seconds: Option<f64>,
-    /// True if it runs.
+    /// True if the animation plays.
     pub playing: bool,
-    /// Seconds of the animation in a second.
+    /// Speed, in seconds of the animation per second.
     pub speed: f64,
     /// Length of the longest clip, seconds.
     duration: f64,
 }
 
 impl Playback {
-    /// Stands at `seconds`, or at rest.
+    /// Makes a playback that stands at `seconds`, or at rest.
     pub fn new(seconds: Option<f64>, duration: f64) -> Self {
         Self { seconds, playing: false, speed: 1.0, duration: duration.max(0.0) }
     }
 
-    /// True if there is anything to play.
+    /// True if there is an animation to play.
     pub fn can_play(&self) -> bool {
         self.duration > 0.0
     }
 
-    /// Length of the longest clip, seconds.
+    /// Returns the length of the longest clip, seconds.
     pub fn duration(&self) -> f64 {
         self.duration
     }
 
-    /// Lets `elapsed` seconds pass. The animation begins anew at its end.
+    /// Advances by `elapsed` seconds. The animation begins anew at its end.
     pub fn advance(&mut self, elapsed: f64) {
         if self.playing && self.can_play() {
             let now = self.seconds.unwrap_or(0.0) + elapsed * self.speed;
@@ -40,24 +40,24 @@ impl Playback {
         }
     }
 
-    /// Goes to a time.
+    /// Sets the time.
     pub fn seek(&mut self, seconds: f64) {
         self.seconds = Some(seconds);
     }
 
-    /// Goes back to how the file places everything, and stops.
+    /// Stops at rest, with everything where the file places it.
     pub fn rest(&mut self) {
         (self.seconds, self.playing) = (None, false);
     }
 
-    /// The time that is shown, seconds; absent at rest. Between the times that the command line gave it is a
-    /// whole number of milliseconds.
+    /// Returns the time that is shown, seconds; `None` at rest. Between the times that the command line gave,
+    /// it is a whole number of milliseconds.
     pub fn shown(&self) -> Option<f64> {
         let rounded = |seconds: f64| if self.playing { (seconds * STEPS).round() / STEPS } else { seconds };
         self.seconds.map(rounded)
     }
 
-    /// Plays or stops. The time where it stops is the one that is shown.
+    /// Plays or stops. The time at which playback stops is the one that is shown.
     pub fn toggle(&mut self) {
         self.seconds = self.shown();
         self.playing = !self.playing && self.can_play();

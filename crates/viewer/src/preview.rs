@@ -1,4 +1,4 @@
-//! The picture while something moves: direct light on what is seen, from few rays, made readable.
+//! Preview while something moves: direct light on the visible surfaces, from few rays, with smoothed noise.
 
 use rasray_experiment::{
     Built, DeviceScene, ExperimentError, Frame, IntegratorRow, IntegratorSpec, OccluderKind, ProgressiveImage,
@@ -6,20 +6,21 @@ use rasray_experiment::{
 use rasray_gpu::Device;
 use rasray_scene::needs::Needs;
 
-/// Pixels from each to those that a pass of [`smoothed`] averages it with. Of a sample at 320x180, mean
-/// errors as shown fall from 3.1 to 1.2 of 255 (cornell) and from 24.7 to 6.4 (walker:8k); with a fourth
-/// pass, of 8, to 2.0 and 6.0, since it blurs shadows.
+/// Distances in pixels from each pixel to the pixels that each pass of [`smoothed`] averages with it. For a
+/// sample at 320x180, mean errors as shown fall from 3.1 to 1.2 of 255 (cornell) and from 24.7 to 6.4
+/// (walker:8k); with a fourth pass, of 8, to 2.0 and 6.0, since it blurs shadows.
 const STEPS: [usize; 3] = [1, 2, 4];
 
-/// Relative difference of two surfaces' colours at which light of one counts a quarter for the other.
+/// Relative difference of two surfaces' colours at which light of one has a quarter of the weight for the
+/// other.
 const APART: f32 = 0.08;
 
-/// Added to colours of surfaces, so that light on black ones is known.
+/// Summand of the colours of surfaces, so that light on black ones is defined.
 const BLACK: f32 = 0.02;
 
-/// The frame of a preview of `size`: of paths their first scattering alone, which is direct light; of other
-/// integrators with materials that scatter the same, since they differ in what comes after; else what was
-/// chosen.
+/// Returns the frame of a preview of `size`: for paths only their first scattering, which is direct light;
+/// for other integrators with materials, paths as well, since they differ only after the first scattering;
+/// otherwise the frame that was chosen.
 fn light_frame(frame: &Frame, [width, height]: [u32; 2]) -> Frame {
     let chosen = &frame.integrator;
     let path = IntegratorRow::named("path").expect("it is registered");
@@ -32,24 +33,24 @@ fn light_frame(frame: &Frame, [width, height]: [u32; 2]) -> Frame {
     Frame { integrator, width, height, adaptive: None, ..frame.clone() }
 }
 
-/// The frame of what is seen without light; absent where `light` has no noise, as all that sends camera rays
-/// alone.
+/// Returns the frame of the visible surfaces without light; `None` if `light` has no noise, as for every
+/// integrator that traces only camera rays.
 fn surface_frame(light: &Frame) -> Option<Frame> {
     let raycast = IntegratorRow::named("raycast").expect("it is registered");
     let is_noisy = light.integrator.row().rays.len() > 1;
     is_noisy.then(|| Frame { integrator: raycast.into(), occluder: OccluderKind::Structure, ..light.clone() })
 }
 
-/// Films of a preview.
+/// Preview with its films.
 pub(crate) struct Preview {
-    /// Pixels a row and rows.
+    /// Width and height in pixels.
     pub(crate) size: [u32; 2],
     light: ProgressiveImage,
     surfaces: Option<ProgressiveImage>,
 }
 
 impl Preview {
-    /// Makes them, with their kernels.
+    /// Makes the films with their kernels.
     pub(crate) fn new(
         device: &Device,
         stage: &DeviceScene,
@@ -68,12 +69,12 @@ impl Preview {
         Ok(Self { size, light: open(&light)?, surfaces })
     }
 
-    /// All of them.
+    /// Returns all films.
     pub(crate) fn films(&mut self) -> impl Iterator<Item = &mut ProgressiveImage> {
         std::iter::once(&mut self.light).chain(&mut self.surfaces)
     }
 
-    /// The one with fewer samples, whose wave is next.
+    /// Returns the film with fewer samples, whose wave is next.
     pub(crate) fn next(&mut self) -> &mut ProgressiveImage {
         let done = self.light.image().samples_done();
         match &mut self.surfaces {
@@ -82,23 +83,23 @@ impl Preview {
         }
     }
 
-    /// True if its films can show what is traced.
+    /// True if the films can show the structure that is traced.
     pub(crate) fn serves(&self, built: &Built) -> bool {
         self.light.serves(built) && self.surfaces.as_ref().is_none_or(|surfaces| surfaces.serves(built))
     }
 
-    /// That of the light, which is the last to have a sample.
+    /// Returns the film of the light, the last to get a sample.
     pub(crate) fn light(&self) -> &ProgressiveImage {
         &self.light
     }
 
-    /// True if all have the same samples, and one at least.
+    /// True if all films have equally many samples, at least one.
     pub(crate) fn is_whole(&self) -> bool {
         let done = self.light.image().samples_done();
         done > 0 && self.surfaces.as_ref().is_none_or(|surfaces| surfaces.image().samples_done() == done)
     }
 
-    /// The picture.
+    /// Reads the picture.
     pub(crate) fn read(&self, device: &Device) -> Result<Vec<[f32; 3]>, ExperimentError> {
         let light = self.light.read(device)?;
         Ok(match &self.surfaces {
@@ -108,9 +109,9 @@ impl Preview {
     }
 }
 
-/// Light averaged over pixels around each where the surfaces look alike: light is divided by the colours of
-/// the surfaces, averaged by a few passes over pixels farther and farther apart ("à trous"), and multiplied
-/// by these colours again, so that edges and textures stay. Both pictures have `width` pixels a row.
+/// Smooths light over the pixels around each whose surfaces look alike. Light is divided by the colours of
+/// the surfaces, averaged in a few passes over pixels farther and farther apart ("à trous"), and multiplied
+/// by these colours again, so that edges and textures stay. Both pictures are `width` pixels wide.
 fn smoothed(light: Vec<[f32; 3]>, surfaces: &[[f32; 3]], width: usize) -> Vec<[f32; 3]> {
     let colours: Vec<[f32; 3]> = surfaces.iter().map(|colour| colour.map(|value| value + BLACK)).collect();
     let scaled = |picture: &[[f32; 3]], by: fn(f32, f32) -> f32| -> Vec<[f32; 3]> {
@@ -124,7 +125,7 @@ fn smoothed(light: Vec<[f32; 3]>, surfaces: &[[f32; 3]], width: usize) -> Vec<[f
     scaled(&irradiance, |irradiance, colour| irradiance * colour)
 }
 
-/// One pass: of each pixel, the mean with its eight neighbours `step` pixels away.
+/// Computes one pass: for each pixel the weighted mean with its eight neighbours `step` pixels away.
 fn pass(picture: &[[f32; 3]], colours: &[[f32; 3]], width: usize, step: usize) -> Vec<[f32; 3]> {
     let height = picture.len() / width.max(1);
     let mean = |index: usize| {
@@ -147,7 +148,7 @@ fn pass(picture: &[[f32; 3]], colours: &[[f32; 3]], width: usize, step: usize) -
     (0..picture.len()).map(mean).collect()
 }
 
-/// Likeness of two surfaces, 0 to 1.
+/// Returns the likeness of two surfaces, 0 to 1.
 fn alike(one: [f32; 3], other: [f32; 3]) -> f32 {
     let apart = |channel: usize| (one[channel] - other[channel]) / (one[channel] + other[channel]);
     let squared: f32 = (0..3).map(|channel| apart(channel) * apart(channel)).sum();
@@ -183,7 +184,7 @@ mod tests {
         assert_eq!(light_frame(&frame, [1, 1]).integrator, unlit);
     }
 
-    /// Two surfaces side by side; light falls on every other pixel, twice as strong on the right.
+    /// Checks two surfaces side by side; light falls on every other pixel, twice as strong on the right.
     #[test]
     fn noise_is_averaged_and_edges_and_textures_stay() {
         let (width, height) = (64, 32);

@@ -1,20 +1,20 @@
-//! Number of pixels of a picture while something moves.
+//! Size of a picture while something moves.
 
-/// Milliseconds that a picture may take while something moves.
+/// Largest time for a picture while something moves, milliseconds.
 pub(crate) const TARGET_MS: f64 = 80.0;
 
-/// Greatest number that sides are divided by.
+/// Largest divisor of the sides.
 const MOST: u32 = 8;
 
-/// Pixels that a picture has at least where its sides are divided by more than 2: fewer cannot be read. These
-/// are a quarter of 640x360.
+/// Least number of pixels of a picture whose sides are divided by more than 2: fewer cannot be recognised.
+/// The number is a quarter of 640x360.
 const LEAST_PIXELS: u32 = 320 * 180;
 
-/// The size of pictures while something moves, by how long the last ones took: half of the sides or all, and
-/// less where that is still 320x180 pixels.
+/// Size of pictures while something moves, chosen by the times of the last ones: half of the sides or the
+/// full size, and less only if 320x180 pixels remain.
 #[derive(Clone, Copy, Debug)]
 pub struct PreviewSize {
-    /// Milliseconds per pixel; absent before the first picture.
+    /// Time per pixel, milliseconds; absent before the first picture.
     ms_per_pixel: Option<f64>,
     divisor: u32,
 }
@@ -26,15 +26,15 @@ impl Default for PreviewSize {
 }
 
 impl PreviewSize {
-    /// Takes note of how long a picture took, and chooses by what sides are divided from now on: 1, 2, 4 or
-    /// 8. Sides in pixels.
+    /// Takes note of the time of a picture, and chooses the divisor of the sides from then on: 1, 2, 4 or 8.
+    /// Sides are in pixels.
     pub fn took(&mut self, milliseconds: f64, full: [u32; 2], pixels: u32) {
         let now = milliseconds / f64::from(pixels.max(1));
-        // One slow picture, as after a build, counts by half.
+        // The weight of one picture is a half, so that a single slow one, as after a build, does not decide.
         let ms_per_pixel = self.ms_per_pixel.map_or(now, |before| 0.5 * (before + now));
         self.ms_per_pixel = Some(ms_per_pixel);
         let expected = |divisor: u32| ms_per_pixel * pixels_of(full, divisor);
-        // A step back to more pixels is taken only where it is worth it, so that sizes do not alternate.
+        // A step back to more pixels is taken only if it is worth it, so that sizes do not alternate.
         while self.divisor < most(full) && expected(self.divisor) > TARGET_MS {
             self.divisor *= 2;
         }
@@ -43,13 +43,13 @@ impl PreviewSize {
         }
     }
 
-    /// Pixels a row and rows.
+    /// Returns width and height in pixels.
     pub fn size(&self, full: [u32; 2]) -> [u32; 2] {
         sides(full, self.divisor.min(most(full)))
     }
 }
 
-/// Greatest divisor of the sides of a picture.
+/// Returns the greatest divisor of the sides of a picture.
 fn most(full: [u32; 2]) -> u32 {
     let is_enough = |divisor: &u32| pixels_of(full, *divisor) >= f64::from(LEAST_PIXELS);
     [MOST, 4].into_iter().find(is_enough).unwrap_or(2)

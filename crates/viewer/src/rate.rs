@@ -2,18 +2,18 @@
 
 use std::collections::VecDeque;
 
-/// Seconds that are looked back.
+/// Span of time over which events are counted, seconds.
 const SPAN: f64 = 2.0;
 
-/// Events a second, over the last two.
+/// Rate of events per second, over the last two seconds.
 #[derive(Clone, Debug, Default)]
 pub struct Rate {
-    /// When, seconds, the oldest first.
+    /// Times of the events, seconds, the oldest first.
     events: VecDeque<f64>,
 }
 
 impl Rate {
-    /// Takes note of an event at `now` (seconds), which does not go back.
+    /// Counts an event at `now` (seconds), which never decreases.
     pub fn count(&mut self, now: f64) {
         self.events.push_back(now);
         while self.events.front().is_some_and(|event| now - event > SPAN) {
@@ -21,7 +21,7 @@ impl Rate {
         }
     }
 
-    /// Events a second up to `now` (seconds); absent before there are two.
+    /// Returns the events per second up to `now` (seconds); `None` before the second event.
     pub fn per_second(&self, now: f64) -> Option<f64> {
         let recent = self.events.iter().filter(|event| now - **event <= SPAN);
         let (count, first) =

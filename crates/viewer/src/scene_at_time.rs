@@ -1,28 +1,28 @@
-//! A scene at times of its animation.
+//! Scene at times of its animation.
 
 use rasray_scene::{Camera, Motion, Scene};
 use rasray_scene_source::{ChosenCamera, LoadError, LoadedScene};
 
-/// Chooses the camera of a scene as the command line said.
+/// Function that chooses the camera of a scene as the command line asked for.
 pub type ChooseCamera = dyn Fn(&mut LoadedScene) -> Result<ChosenCamera, LoadError> + Send;
 
-/// A scene that can be shown at any time, and at rest again. [`SceneAtTime::show`] is the one place that
-/// steps a scene: it stays at rest, and the device poses it. Scenes whose triangles may be others at every
-/// time are posed here.
+/// Scene that can be shown at any time, and at rest again. Only [`SceneAtTime::show`] changes the time of a
+/// scene: the scene stays at rest, and the device poses it. A scene whose triangles may differ at every time
+/// is posed by the host.
 pub(crate) struct SceneAtTime {
     loaded: LoadedScene,
-    /// As the file places everything, without its images, which do not move and may be most of the memory, of
-    /// a scene that is posed here.
+    /// Scene as the file places everything, for a scene that the host poses. It lacks the images, which do
+    /// not move and may be most of the memory.
     rest: Option<Scene>,
-    /// The clip that moves it; else all that can be played at once.
+    /// Name of the clip that moves the scene; absent for all clips that can be played together.
     clip: Option<String>,
     seconds: Option<f64>,
-    /// The camera at that time, while nobody moves it.
+    /// Camera at the shown time, while nobody moves it.
     chosen: Option<Camera>,
 }
 
 impl SceneAtTime {
-    /// Takes a scene as it was read, at rest.
+    /// Makes it from a scene as it was read, at rest.
     pub(crate) fn new(mut loaded: LoadedScene, clip: Option<String>) -> Self {
         let rest = (loaded.scene.motion() == Motion::Changing).then(|| {
             let images = std::mem::take(&mut loaded.scene.images);
@@ -33,10 +33,10 @@ impl SceneAtTime {
         Self { loaded, rest, clip, seconds: None, chosen: None }
     }
 
-    /// Shows it at a time, seconds, or at rest.
+    /// Shows the scene at a time, seconds, or at rest.
     ///
     /// # Errors
-    /// It has no clips, or no such clip, or the file of that time cannot be read.
+    /// The scene has no clips, or no such clip, or the file of that time cannot be read.
     pub(crate) fn show(&mut self, seconds: Option<f64>) -> Result<(), LoadError> {
         if self.seconds == seconds {
             return Ok(());
@@ -53,13 +53,13 @@ impl SceneAtTime {
                 (self.loaded.moment, self.loaded.pose) = (None, None);
             }
         }
-        // As a picture of that time is lit.
+        // The light is that of a picture of this time.
         self.loaded.relight();
         (self.seconds, self.chosen) = (seconds, None);
         Ok(())
     }
 
-    /// Pose of the camera that nobody moves.
+    /// Returns the pose of the camera that nobody moves.
     ///
     /// # Errors
     /// The scene has no such camera.
@@ -70,12 +70,12 @@ impl SceneAtTime {
         Ok(self.chosen.insert(choose(&mut self.loaded)?.camera).clone())
     }
 
-    /// As it is shown, or at rest where the device poses it.
+    /// Returns the scene as it is shown, or at rest if the device poses it.
     pub(crate) fn loaded(&self) -> &LoadedScene {
         &self.loaded
     }
 
-    /// As [`Self::loaded`], for images to be made smaller.
+    /// Returns the scene as [`Self::loaded`], mutably, so that its images can be made smaller.
     pub(crate) fn loaded_mut(&mut self) -> &mut LoadedScene {
         &mut self.loaded
     }

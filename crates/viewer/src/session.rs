@@ -1,4 +1,4 @@
-//! Choices of the user, and what came of them.
+//! Session: the choices of the user, and their results.
 
 mod cameras;
 mod opening;
@@ -23,86 +23,86 @@ use rasray_experiment::{Frame, SystemConfig};
 use rasray_metrics::{Tone, ToneCurve};
 use rasray_scene::Lens;
 
-/// Seconds after the last motion until the whole picture is made.
+/// Seconds after the last motion before the whole picture is made.
 const REST: f64 = 0.2;
 
-/// A failure in words.
+/// Description of a failure.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Failure {
-    /// Fault, in one sentence.
+    /// Description of the fault, in one sentence.
     pub message: String,
-    /// Advice on what to do about it; may be empty.
+    /// Advice to the user; may be empty.
     pub help: String,
 }
 
 impl Failure {
-    /// The message of an error, without advice.
+    /// Returns the message of an error, without advice.
     pub fn without_help(error: &impl std::error::Error) -> Self {
         Self { message: error.to_string(), help: String::new() }
     }
 }
 
-/// Says in words what is wrong and what to do about it.
+/// Function that describes an error and gives advice.
 pub type Explain = fn(&ViewerError) -> Failure;
 
-/// True if both make one structure, whoever chose it.
+/// True if both configurations make one structure, whoever chose it.
 fn is_same(one: &SystemConfig, other: &SystemConfig) -> bool {
     one.system == other.system && one.preset == other.preset && one.options == other.options
 }
 
-/// Choices made by hand, and the last picture.
+/// Session of a user: choices made by hand, and the last picture.
 pub struct Session {
     opening: Opening,
     explain: Explain,
-    /// The system and what is set of its options; it need not be valid.
+    /// System with the options that were set; the choice may be invalid.
     pub system: SystemChoice,
-    /// The last valid configuration.
+    /// Last valid configuration.
     config: SystemConfig,
-    /// Integrator, samples, seed; its size is the picture's.
+    /// Frame: integrator, samples and seed; its size is the picture's.
     pub frame: Frame,
     /// Picture or map that is shown.
     pub shown: Shown,
-    /// True if noise is taken out of the picture.
+    /// True if the picture is denoised.
     pub denoised: bool,
-    /// Tone of colours, shown and saved.
+    /// Tone of the colours that are shown and saved.
     pub tone: Tone,
-    /// The time.
+    /// Playback of the animation.
     pub playback: Playback,
     stand: Stand,
     /// Number of scenes opened before this one.
     scene: u32,
-    /// A scene that is to be opened, as it was named, and its number among those.
+    /// Scene to open, as it was named.
     to_open: Option<OsString>,
-    /// The scene that is being read: the number of the request, and how it was named.
+    /// Scene that is being read: the number of the request, and its name.
     reading: Option<(u64, String)>,
     requests: u64,
-    /// Why the last scene that was to be opened is not shown.
+    /// Failure of the last scene to open; absent if the scene is shown.
     not_opened: Option<Failure>,
-    /// A pick that nobody was asked about so far.
+    /// Pick that is still to be asked.
     to_pick: Option<Pick>,
-    /// Last pick.
+    /// Last pick with its answers.
     picked: Option<Picked>,
     picks: u64,
-    /// Until when something moves, seconds.
+    /// Time until which something moves, seconds.
     moving_until: f64,
-    /// The settings that were asked for last.
+    /// Settings that were asked for last.
     asked: Option<Settings>,
-    /// The last complete picture.
+    /// Last complete picture.
     pub picture: Option<Box<Picture>>,
-    /// Number of pictures that have come.
+    /// Number of pictures that have arrived.
     pub pictures: u64,
-    /// Rate at which they come.
+    /// Rate of arriving pictures.
     pub picture_rate: Rate,
-    /// Work that takes long, in a few words; absent where there is none.
+    /// Description of work that takes long, in a few words; absent without such work.
     pub status: Option<String>,
-    /// Why there is no picture of the settings that were asked for.
+    /// Failure of the settings that were asked for; absent if there is a picture.
     failed: Option<Failure>,
-    /// Why options are not valid.
+    /// Failure of the options; absent if they are valid.
     invalid: Option<Failure>,
 }
 
 impl Session {
-    /// Begins a session, whose errors `explain` says in words.
+    /// Begins a session, whose errors `explain` describes in words.
     pub fn new(opening: Opening, explain: Explain) -> Self {
         let Settings { system, frame, shown, denoised, seconds, .. } = opening.settings.clone();
         Self {
@@ -135,30 +135,30 @@ impl Session {
         }
     }
 
-    /// The scene as it was named.
+    /// Returns the scene as it was named.
     pub fn scene_name(&self) -> String {
         self.opening.scene.to_string_lossy().into_owned()
     }
 
-    /// Half the diagonal of the scene, metres.
+    /// Returns half the diagonal of the scene, metres.
     pub fn radius(&self) -> f64 {
         let (low, high) = self.opening.bounds;
         let radius = 0.5 * (high - low).length();
         if radius.is_finite() && radius > 0.0 { radius } else { 1.0 }
     }
 
-    /// Goes to a time at `now` (seconds).
+    /// Sets the time of the animation at `now` (seconds).
     pub fn seek(&mut self, seconds: f64, now: f64) {
         self.playback.seek(seconds);
         self.moving_until = now + REST;
     }
 
-    /// The settings at `now` (seconds), where they are others than those asked for before. Options that are
-    /// not valid are a failure, and the settings stay what they were.
+    /// Returns the settings at `now` (seconds), if they differ from those asked for before. Invalid options
+    /// are a failure, and the settings stay unchanged.
     pub fn changed_settings(&mut self, now: f64) -> Option<Settings> {
         self.invalid = None;
         match self.system.config() {
-            // One that nobody changed keeps why it was taken, and its structure.
+            // A configuration that nobody changed keeps the reason for its choice, and its structure.
             Ok(config) if is_same(&config, &self.config) => (),
             Ok(config) => self.config = config,
             Err(error) => {
@@ -168,7 +168,8 @@ impl Session {
         let seconds = self.playback.shown();
         let is_elsewhen = self.asked.as_ref().is_some_and(|asked| asked.seconds != seconds);
         if self.opening.camera_is_default && is_elsewhen && matches!(self.stand, Stand::AsGiven) {
-            // Else it would jump about with what moves. Without a picture so far there is nothing to stay at.
+            // Otherwise the camera would jump about with the moving scene. Before the first picture there is
+            // no camera to keep.
             _ = self.take_camera();
         }
         let standpoint = match &self.stand {
@@ -194,15 +195,15 @@ impl Session {
         Some(settings)
     }
 
-    /// When the settings change by themselves next, seconds; absent while they stay.
+    /// Returns the time in seconds at which the settings change by themselves; `None` while they stay.
     pub fn wakes_at(&self) -> Option<f64> {
         let moving = self.asked.as_ref().is_some_and(|asked| asked.moving);
         (moving && !self.playback.playing).then_some(self.moving_until)
     }
 
-    /// Takes what was said at `now` (seconds). Pictures of settings that are no longer asked for are shown
-    /// all the same: they are complete, and say what they are of. Those of a scene before are not. Of a scene
-    /// that was read there is what an engine shows, with the settings of which pictures are to be made.
+    /// Takes an update at `now` (seconds). A picture of settings that are no longer asked for is shown as
+    /// well, since it is complete and holds its settings; a picture of a scene before is not. For a scene
+    /// that was read, the source for an engine is returned, with the settings of the pictures to make.
     pub fn take(&mut self, update: Update, now: f64) -> Option<(SceneSource, Settings)> {
         match update {
             Update::Status(text) => self.status = Some(text),
@@ -241,13 +242,13 @@ impl Session {
         None
     }
 
-    /// Why there is no picture of what was chosen, if there is none.
+    /// Returns the failure for which the choices give no picture, if any.
     pub fn failure(&self) -> Option<&Failure> {
         self.invalid.as_ref().or(self.failed.as_ref())
     }
 
-    /// The command line that makes the picture of these settings when its refinement has ended, and writes it
-    /// to `output`.
+    /// Returns the command line that makes the picture of these settings at the end of its refinement, and
+    /// writes it to `output`.
     pub fn command_line(&self, settings: &Settings, output: &Path) -> String {
         let Opening { scene, camera_words, cameras, time_words, other_words, .. } = &self.opening;
         let mut words = vec!["rasray".to_owned(), "render".to_owned(), scene.to_string_lossy().into_owned()];
@@ -288,8 +289,8 @@ impl Session {
         words.iter().map(|word| quoted(word)).collect::<Vec<_>>().join(" ")
     }
 
-    /// The first place for a picture where `is_taken` says that there is no file. Without a run of # in the
-    /// name there is one place, which is written over.
+    /// Returns the first file name for a picture that `is_taken` does not report as taken. A name without a
+    /// run of # gives one file, which is overwritten.
     pub fn place_for_picture(&self, is_taken: impl Fn(&Path) -> bool) -> PathBuf {
         let pattern = &self.opening.output;
         let name = pattern.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();

@@ -1,4 +1,4 @@
-//! Inputs of a picture, and what must be made anew where they change.
+//! Settings of a picture, and the parts to make anew after a change.
 
 use crate::camera_control::Rounded;
 use rasray_experiment::{Aov, AovSelection, Frame, SystemConfig};
@@ -7,24 +7,24 @@ use rasray_scene::needs::Workload;
 /// Picture or map to show.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Shown {
-    /// The picture.
+    /// Picture of the scene.
     #[default]
     Picture,
-    /// Distance from the same picture through a structure whose hits are exact.
+    /// Difference to the picture through a structure whose hits are exact.
     Difference,
-    /// Cells visited by the ray through each pixel's centre.
+    /// Number of cells visited by the ray through each pixel's centre.
     Cells,
-    /// Entries or nodes that it read.
+    /// Number of entries or nodes that this ray read.
     Entries,
-    /// Primitives that it was tested against.
+    /// Number of primitives that this ray was tested against.
     Tests,
 }
 
 impl Shown {
-    /// All of them.
+    /// All pictures and maps.
     pub const ALL: [Self; 5] = [Self::Picture, Self::Difference, Self::Cells, Self::Entries, Self::Tests];
 
-    /// A label.
+    /// Returns the label.
     pub fn name(self) -> &'static str {
         match self {
             Self::Picture => "picture",
@@ -35,7 +35,7 @@ impl Shown {
         }
     }
 
-    /// Description, one sentence.
+    /// Returns the description, one sentence.
     pub fn doc(self) -> &'static str {
         match self {
             Self::Picture => "The picture",
@@ -48,73 +48,73 @@ impl Shown {
         }
     }
 
-    /// True for maps of what rays cost, for which no light is needed.
+    /// True for maps of the costs of rays, for which no light is needed.
     pub fn is_work(self) -> bool {
         matches!(self, Self::Cells | Self::Entries | Self::Tests)
     }
 }
 
-/// From where the scene is seen.
+/// Standpoint from which the scene is seen.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Standpoint {
-    /// As the command line said; a camera of the scene moves with it.
+    /// Camera of the command line; a camera of the scene moves with the scene.
     AsGiven,
-    /// From a camera of the scene, by its position, and with it.
+    /// Camera of the scene by its index, which moves with the scene.
     Camera(usize),
-    /// From where these numbers say.
+    /// Camera that these numbers describe.
     Placed(Rounded),
 }
 
-/// Everything that a picture depends on.
+/// Settings: everything that a picture depends on.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Settings {
-    /// Number of the scene among those that were opened one after the other, from 0.
+    /// Number of the scene among those that were opened one after another, from 0.
     pub scene: u32,
-    /// From where.
+    /// Standpoint from which the scene is seen.
     pub standpoint: Standpoint,
     /// Time of the animation, seconds; absent at rest.
     pub seconds: Option<f64>,
-    /// Through what.
+    /// System through which rays are traced.
     pub system: SystemConfig,
-    /// Size, integrator, number of samples and their seed.
+    /// Frame: size, integrator, number of samples and their seed.
     pub frame: Frame,
     /// Picture or map to show.
     pub shown: Shown,
-    /// True if noise is taken out of the picture; maps and pictures while something moves have none of it.
+    /// True if the picture is denoised; maps, and pictures while something moves, are never denoised.
     pub denoised: bool,
-    /// True if something moves: the picture then has fewer pixels where that is needed to follow.
+    /// True if something moves: the picture then has fewer pixels if that is needed to keep up.
     pub moving: bool,
 }
 
 impl Settings {
-    /// Workload of its pictures on a scene.
+    /// Returns the workload of the settings' pictures on a scene.
     pub(crate) fn workload(&self) -> Workload {
         let fed = self.denoised.then_some(Aov::FOR_DENOISING).into_iter().flatten();
         AovSelection::from_iter(fed).workload(self.frame.workload())
     }
 }
 
-/// Parts that must be made anew. What is made from something that is made anew is made anew as well.
+/// Parts that must be made anew. A part that is made from another is made anew with the other.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Redo {
-    /// The scene on the device. What moves in it is posed, and structures are built for it, where the time
-    /// has changed.
+    /// Scene on the device. A change of the time does not set this: moving parts are posed, and structures
+    /// are built for the pose.
     pub scene: bool,
-    /// The structure.
+    /// Structure.
     pub structure: bool,
-    /// Films, and what fills them.
+    /// Films and the kernels that fill them.
     pub film: bool,
-    /// The samples on the films.
+    /// Samples on the films.
     pub samples: bool,
-    /// The pixels shown of the samples.
+    /// Pixels that are shown of the samples.
     pub pixels: bool,
 }
 
 impl Redo {
-    /// Everything.
+    /// All parts.
     pub const ALL: Self = Self { scene: true, structure: true, film: true, samples: true, pixels: true };
 
-    /// Parts that must be made anew for `new` where everything is there for `old`.
+    /// Returns the parts that must be made anew for `new` if everything exists for `old`.
     pub fn between(old: &Settings, new: &Settings) -> Self {
         if old == new {
             return Self::default();
@@ -122,13 +122,13 @@ impl Redo {
         if old.scene != new.scene {
             return Self::ALL;
         }
-        // The scene on the device holds what its pictures can show, and no more.
+        // The scene on the device holds only the data that its pictures can show.
         let scene = old.workload() != new.workload();
         let structure = scene || old.system != new.system;
         let size = |frame: &Frame| [frame.width, frame.height];
         let film =
             scene || old.frame.integrator != new.frame.integrator || size(&old.frame) != size(&new.frame);
-        // Noise is taken out of the samples that are there.
+        // Denoising uses the existing samples.
         let samples = scene || *old != Settings { denoised: old.denoised, ..new.clone() };
         Self { scene, structure, film, samples, pixels: true }
     }
@@ -140,12 +140,12 @@ pub(crate) mod tests {
     use rasray_experiment::{IntegratorRow, IntegratorSpec, OccluderKind, OptionValues, Primary, Sampler};
     use rasray_systems::{Preset, SYSTEMS};
 
-    /// An integrator with its defaults.
+    /// Returns an integrator with its defaults.
     pub(crate) fn integrator(name: &str) -> IntegratorSpec {
         IntegratorRow::named(name).expect("it is registered").into()
     }
 
-    /// Settings that tests start from.
+    /// Returns settings that tests start from.
     pub(crate) fn some() -> Settings {
         let frame = Frame {
             integrator: integrator("path").with("bounces", 3).expect("valid"),
@@ -223,7 +223,7 @@ pub(crate) mod tests {
         assert_eq!(redo(|new| new.denoised = true), pixels);
         let with_seed = Redo { samples: true, ..pixels };
         assert_eq!(redo(|new| (new.denoised, new.frame.seed) = (true, 2)), with_seed);
-        // A picture without materials has none on the device, and a denoiser reads their colours.
+        // For a picture without materials the device has no materials, but a denoiser reads their colours.
         let mut old = some();
         old.frame.integrator = integrator("ao");
         let new = Settings { denoised: true, ..old.clone() };

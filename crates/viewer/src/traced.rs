@@ -6,15 +6,15 @@ use rasray_gpu::Device;
 use rasray_scene::needs::Needs;
 use rasray_systems::{Preset, SYSTEMS};
 
-/// A structure with the configuration that it was built for.
+/// Structure with the configuration that it was built for.
 pub(crate) struct Traced {
     pub(crate) config: SystemConfig,
     pub(crate) built: Built,
-    /// Seconds at which the scene was when it was built; absent at rest.
+    /// Time of the scene at the build, seconds; absent at rest.
     seconds: Option<f64>,
 }
 
-/// A system whose hits are exact, and not the one that is shown.
+/// Returns a configuration whose hits are exact and whose system is not the one that is shown.
 pub(crate) fn exact_config(shown: &SystemConfig) -> SystemConfig {
     let is_exact = |config: &SystemConfig| {
         config.spec().and_then(|spec| Ok(spec.kind()?)).is_ok_and(|kind| kind == StructureKind::Primitive)
@@ -24,8 +24,8 @@ pub(crate) fn exact_config(shown: &SystemConfig) -> SystemConfig {
     others.into_iter().find(is_exact).unwrap_or_else(|| shown.clone())
 }
 
-/// Makes the structure of a configuration for the scene at a time and its camera, where there is none or
-/// another; builds it anew where the scene has moved, or the camera has and it depends on that. One whose
+/// Makes the structure of a configuration for the scene at a time and its camera, unless it exists. Builds it
+/// anew if the scene has moved, or if the camera has moved and the structure depends on it. A structure whose
 /// build fails is dropped.
 pub(crate) fn follow(
     device: &Device,

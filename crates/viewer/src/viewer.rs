@@ -1,4 +1,4 @@
-//! A window without its drawing: a session with the threads that carry it out.
+//! Viewer without the drawing of its window: a session with the threads that carry it out.
 
 use std::ffi::OsStr;
 use std::sync::{Arc, mpsc};
@@ -7,10 +7,10 @@ use crate::engine::Engine;
 use crate::session::{Failure, Session};
 use crate::worker::{Opened, Update, Worker};
 
-/// Reads the scene of a name, which may take long; it is called in a thread of its own.
+/// Function that reads the scene of a name, which may take long; it is called in a thread of its own.
 pub type OpenScene = dyn Fn(&OsStr) -> Result<Opened, Failure> + Send + Sync;
 
-/// A session, the worker that makes its pictures, and what reads its scenes.
+/// Session, the worker that makes its pictures, and the function that reads its scenes.
 pub struct Viewer {
     /// Choices of the user.
     pub session: Session,
@@ -21,11 +21,11 @@ pub struct Viewer {
 }
 
 impl Viewer {
-    /// Begins a session with the engine that `engine` makes in the worker's thread. `wake` is called from
-    /// other threads where there is something to take ([`Viewer::take_updates`]).
+    /// Begins a session with the engine that `engine` makes in the worker's thread. Other threads call `wake`
+    /// when there are updates to take ([`Viewer::take_updates`]).
     ///
     /// # Errors
-    /// The system has no more threads.
+    /// The operating system has no more threads.
     pub fn start(
         session: Session,
         engine: impl FnOnce() -> Engine + Send + 'static,
@@ -34,7 +34,7 @@ impl Viewer {
     ) -> std::io::Result<Self> {
         let (sender, updates) = mpsc::channel();
         let tell: Arc<dyn Fn(Update) + Send + Sync> = Arc::new(move |update| {
-            // Whoever has gone wants no more pictures.
+            // If the receiver is gone, nobody wants more pictures.
             _ = sender.send(update);
             wake();
         });
@@ -43,7 +43,7 @@ impl Viewer {
         Ok(Self { session, worker, updates, tell, open })
     }
 
-    /// Takes what was made since, at `now` (seconds).
+    /// Takes the updates that arrived, at `now` (seconds).
     pub fn take_updates(&mut self, now: f64) {
         while let Ok(update) = self.updates.try_recv() {
             if let Some((source, settings)) = self.session.take(update, now) {
@@ -52,10 +52,10 @@ impl Viewer {
         }
     }
 
-    /// Asks for what was chosen since, at `now` (seconds): pictures, answers to a pick, another scene.
+    /// Asks for everything that was chosen, at `now` (seconds): pictures, answers to a pick, another scene.
     ///
     /// # Errors
-    /// The system has no more threads.
+    /// The operating system has no more threads.
     pub fn ask(&mut self, now: f64) -> std::io::Result<()> {
         if let Some(settings) = self.session.changed_settings(now) {
             self.worker.want(settings);
@@ -65,7 +65,7 @@ impl Viewer {
         }
         if let Some((number, scene)) = self.session.asked_scene() {
             let (tell, open) = (self.tell.clone(), self.open.clone());
-            // It ends by itself; what comes of a request that is no longer the newest is dropped.
+            // The thread ends by itself; the result of a request that is no longer the newest is dropped.
             std::thread::Builder::new()
                 .name("reading".to_owned())
                 .spawn(move || tell(Update::Read(number, open(&scene).map(Box::new))))?;

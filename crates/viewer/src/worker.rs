@@ -1,4 +1,5 @@
-//! An engine in a thread of its own: the newest settings win, and whoever shows pictures never waits.
+//! Worker that runs an engine in a thread of its own: the newest settings win, and the thread that shows
+//! pictures never waits.
 
 use std::collections::VecDeque;
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
@@ -14,28 +15,28 @@ use crate::picture::Picture;
 use crate::session::{Failure, Opening};
 use crate::settings::Settings;
 
-/// Least time between two pictures of the same settings that are handed on.
+/// Least time between two forwarded pictures of equal settings.
 const PICTURE_PAUSE: Duration = Duration::from_millis(30);
 
 /// Message of a worker.
 pub enum Update {
-    /// Work that takes long, in a few words.
+    /// Description of work that takes long, in a few words.
     Status(String),
     /// A picture.
     Picture(Box<Picture>),
-    /// The settings failed. The picture before stays the last complete one.
+    /// Failure of the settings. The last complete picture stays.
     Failed(ViewerError),
-    /// Answer of a system to the pick of that number.
+    /// Answer of a system to the pick of this number.
     Answered(u64, Answer),
-    /// Outcome of reading a scene, by the number of the request.
+    /// Result of reading a scene, with the number of the request.
     Read(u64, Result<Box<Opened>, Failure>),
 }
 
-/// A scene that was read.
+/// Scene that was read.
 pub struct Opened {
-    /// State that a session of it begins with.
+    /// State with which a session of the scene begins.
     pub opening: Opening,
-    /// Scene for an engine to show.
+    /// Source of the scene for an engine.
     pub source: SceneSource,
 }
 
@@ -47,7 +48,7 @@ struct Wanted {
     quit: bool,
 }
 
-/// Shared with the thread.
+/// Requests that are shared with the thread.
 #[derive(Default)]
 struct Post {
     wanted: Mutex<Wanted>,
@@ -60,18 +61,18 @@ impl Post {
     }
 }
 
-/// A thread that makes pictures. Dropping it waits for the piece of work that is under way.
+/// Worker: a thread that makes pictures. Dropping it waits for the current piece of work.
 pub struct Worker {
     post: Arc<Post>,
     thread: Option<JoinHandle<()>>,
 }
 
 impl Worker {
-    /// Starts it with the settings of the engine that `make` makes in the thread, where it stays; `tell` is
-    /// called from there.
+    /// Starts the thread with the settings of the engine that `make` makes in the thread, where the engine
+    /// stays. The thread calls `tell`.
     ///
     /// # Errors
-    /// The system has no more threads.
+    /// The operating system has no more threads.
     pub fn start(
         make: impl FnOnce() -> Engine + Send + 'static,
         tell: impl Fn(Update) + Send + 'static,
@@ -90,7 +91,7 @@ impl Worker {
         self.post.changed.notify_one();
     }
 
-    /// Asks for pictures of another scene from now on, which settings say how to see.
+    /// Asks for pictures of another scene from now on, with these settings.
     pub fn show(&self, source: SceneSource, settings: Settings) {
         let mut wanted = self.post.wanted();
         (wanted.source, wanted.settings) = (Some(source), Some(settings));
@@ -98,7 +99,7 @@ impl Worker {
         self.post.changed.notify_one();
     }
 
-    /// Asks what is hit; answers to an earlier pick that did not come so far no longer do.
+    /// Asks for the hits of a pick; outstanding answers to an earlier pick no longer come.
     pub fn pick(&self, pick: Pick) {
         self.post.wanted().pick = Some(pick);
         self.post.changed.notify_one();
@@ -110,7 +111,7 @@ impl Drop for Worker {
         self.post.wanted().quit = true;
         self.post.changed.notify_one();
         if let Some(thread) = self.thread.take() {
-            // A panic of the thread has been reported by the thread.
+            // The thread itself has reported its panic.
             _ = thread.join();
         }
     }
@@ -143,7 +144,8 @@ fn work(mut engine: Engine, post: &Post, tell: &dyn Fn(Update)) {
                 asked = Some((pick, systems));
             }
         }
-        // One system at a time: a build may take long, and newer settings go before the next.
+        // Systems answer one at a time: a build may take long, and newer settings are handled before the next
+        // system.
         if let Some((pick, systems)) = &mut asked {
             match systems.pop_front() {
                 Some(config) => tell(Update::Answered(pick.number, engine.answer(pick, &config))),

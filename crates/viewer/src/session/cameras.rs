@@ -1,22 +1,23 @@
-//! From where the scene of a session is seen.
+//! Cameras of a session.
 
 use rasray_scene::{Camera, Lens};
 
 use super::{REST, Session};
 use crate::camera_control::{CameraControl, Side};
 
-/// From where the scene is seen.
+/// Standpoint from which the scene is seen.
 pub(super) enum Stand {
-    /// As the command line said.
+    /// Camera of the command line.
     AsGiven,
-    /// A camera of the scene, by its position there.
+    /// Camera of the scene, by its index.
     Camera(usize),
-    /// Moved by hand.
+    /// Camera moved by hand.
     Moved(CameraControl),
 }
 
 impl Session {
-    /// The camera, to be moved at `now` (seconds); nothing before the first picture says where it is.
+    /// Returns the camera, to be moved at `now` (seconds); `None` before the first picture, which tells its
+    /// place.
     pub fn move_camera(&mut self, now: f64) -> Option<&mut CameraControl> {
         self.take_camera()?;
         self.moving_until = now + REST;
@@ -26,7 +27,7 @@ impl Session {
         }
     }
 
-    /// The camera as it was moved, or else that of the last picture.
+    /// Returns the camera as it was moved, or else that of the last picture.
     fn camera(&self) -> Option<CameraControl> {
         if let Stand::Moved(control) = &self.stand {
             return Some(control.clone());
@@ -35,36 +36,37 @@ impl Session {
         Some(self.control_of(&picture.camera, [picture.width, picture.height]))
     }
 
-    /// A camera, to be moved by hand; the size is of its picture, pixels.
+    /// Makes a control for moving a camera by hand; the size is that of its picture, pixels.
     fn control_of(&self, camera: &Camera, size: [u32; 2]) -> CameraControl {
         let frame = &camera.world_from_camera;
         let (low, high) = self.opening.bounds;
         let forward = (-frame.matrix3.z_axis).normalize_or_zero();
-        // Around the middle of the scene, or what is in front of a camera that has passed it.
+        // The camera turns around the middle of the scene, or around a point in front if it has passed the
+        // middle.
         let ahead = (0.5 * (low + high) - frame.translation).dot(forward);
         let distance = ahead.max(0.2 * self.radius());
         CameraControl::from_camera(camera, size, distance)
     }
 
-    /// Takes the camera from where the last picture was seen.
+    /// Takes the camera of the last picture.
     pub(super) fn take_camera(&mut self) -> Option<()> {
         self.stand = Stand::Moved(self.camera()?);
         Some(())
     }
 
-    /// The lens of the camera, as [`CameraControl::lens`]; nothing before the first picture says where it is.
+    /// Returns the lens of the camera, as [`CameraControl::lens`]; `None` before the first picture.
     pub fn lens(&self) -> Option<Lens> {
         self.camera().map(|camera| camera.lens())
     }
 
-    /// Changes it at `now` (seconds).
+    /// Changes the lens at `now` (seconds).
     pub fn set_lens(&mut self, lens: Lens, now: f64) {
         if let Some(camera) = self.move_camera(now) {
             camera.set_lens(lens);
         }
     }
 
-    /// Puts the camera back to where the command line had it.
+    /// Returns the camera to the place that the command line gave.
     pub fn reset_camera(&mut self) {
         self.stand = Stand::AsGiven;
     }
@@ -74,7 +76,7 @@ impl Session {
         matches!(self.stand, Stand::Moved(_))
     }
 
-    /// The cameras of the scene, as the command line names them.
+    /// Returns the cameras of the scene, as the command line names them.
     pub fn cameras(&self) -> impl Iterator<Item = &str> {
         self.opening.cameras.iter().map(|(_, word)| word.as_str())
     }
@@ -86,13 +88,13 @@ impl Session {
         }
     }
 
-    /// The one of [`Session::cameras`] that is looked through.
+    /// Returns the place in [`Session::cameras`] of the camera that is looked through.
     pub fn chosen_camera(&self) -> Option<usize> {
         let Stand::Camera(chosen) = self.stand else { return None };
         self.opening.cameras.iter().position(|(index, _)| *index == chosen)
     }
 
-    /// Looks from where a scene without cameras is seen from.
+    /// Looks through the camera that a scene without cameras gets.
     pub fn choose_default_camera(&mut self) {
         let camera = self.opening.default_camera.clone();
         self.stand = Stand::Moved(self.control_of(&camera, [self.frame.width, self.frame.height]));
@@ -106,7 +108,7 @@ impl Session {
         }
     }
 
-    /// Looks from a side at what is turned around, at `now` (seconds).
+    /// Looks from a side at the point that the camera turns around, at `now` (seconds).
     pub fn view_along(&mut self, side: Side, now: f64) {
         if let Some(camera) = self.move_camera(now) {
             camera.view_along(side);

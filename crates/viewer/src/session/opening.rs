@@ -1,4 +1,4 @@
-//! State that a session begins with, and another scene in its course.
+//! State that a session begins with, and the change to another scene.
 
 use std::ffi::OsString;
 use std::path::PathBuf;
@@ -17,34 +17,34 @@ use crate::settings::Settings;
 /// State that a session begins with.
 #[derive(Clone, Debug)]
 pub struct Opening {
-    /// The scene as it was named.
+    /// Scene as it was named.
     pub scene: OsString,
-    /// Words of the command line that put the camera where it is at first.
+    /// Words of the command line that place the camera at first.
     pub camera_words: Vec<String>,
-    /// True if the camera is placed by where everything is at first: it stays there when the time changes.
+    /// True if the camera is placed by the scene's first pose: it stays there when the time changes.
     pub camera_is_default: bool,
-    /// The cameras of the scene: their positions there, and the words that name them on the command line.
+    /// Cameras of the scene: their indices, and the words that name them on the command line.
     pub cameras: Vec<(usize, String)>,
-    /// The camera of a scene that has none, at rest.
+    /// Camera for a scene without cameras, at rest.
     pub default_camera: Camera,
-    /// Words that say when the scene is shown are followed by these, such as those of a clip.
+    /// Words that follow those of the time on the command line, such as the words of a clip.
     pub time_words: Vec<String>,
-    /// Words of the command line that stay as they are.
+    /// Words of the command line that never change.
     pub other_words: Vec<String>,
-    /// Settings at first.
+    /// Settings at the beginning.
     pub settings: Settings,
-    /// Tone of colours.
+    /// Tone of the colours.
     pub tone: Tone,
     /// Length of the longest clip, seconds.
     pub duration: f64,
-    /// The least and greatest corner of the scene, world, metres.
+    /// Least and greatest corner of the scene in the world, metres.
     pub bounds: (DVec3, DVec3),
-    /// File that pictures are saved as: a run of # stands for a number.
+    /// File name of saved pictures, in which a run of # stands for a number.
     pub output: PathBuf,
 }
 
-/// The cameras of a scene as [`Opening::cameras`] has them: by name where the command line finds them by it,
-/// else by position.
+/// Returns the cameras of a scene in the form of [`Opening::cameras`]: by name if the command line finds them
+/// by it, otherwise by index.
 pub fn camera_names(loaded: &LoadedScene) -> Vec<(usize, String)> {
     let words = loaded.scene.cameras.iter().enumerate().filter_map(|(index, camera)| {
         let is_it = |word: &String| loaded.named_view(word).is_ok_and(|chosen| chosen.index == Some(index));
@@ -68,7 +68,7 @@ impl Session {
         self.open(path.into_os_string());
     }
 
-    /// The scene that is to be read, and the number of the request, once.
+    /// Returns the scene to read, and the number of the request; only once.
     pub fn asked_scene(&mut self) -> Option<(u64, OsString)> {
         let scene = self.to_open.take()?;
         self.requests += 1;
@@ -77,23 +77,23 @@ impl Session {
         Some((self.requests, scene))
     }
 
-    /// The scene that is being read.
+    /// Returns the scene that is being read.
     pub fn reading(&self) -> Option<&str> {
         self.reading.as_ref().map(|(_, name)| name.as_str())
     }
 
-    /// Why the last scene that was to be opened is not shown.
+    /// Returns the failure of the last scene to open, if it is not shown.
     pub fn not_opened(&self) -> Option<&Failure> {
         self.not_opened.as_ref()
     }
 
-    /// Forgets the failure, which was read.
+    /// Forgets the failure, which the user has read.
     pub fn dismiss(&mut self) {
         self.not_opened = None;
     }
 
-    /// Goes on with another scene. What was chosen of the picture stays, and of the structure what is not as
-    /// the scene before had it at first.
+    /// Begins another scene. The choices for the picture stay; so do those for the structure, unless they are
+    /// the first ones of the scene before.
     pub(super) fn begin(&mut self, opening: Opening) {
         let Settings { system, seconds, .. } = &opening.settings;
         if is_same(&self.config, &self.opening.settings.system) {

@@ -1,4 +1,4 @@
-//! Points of the scene that are picked in a session.
+//! Picks of points of the scene in a session.
 
 use rasray_experiment::{OptionValues, SystemConfig};
 use rasray_scene::Lens;
@@ -8,8 +8,8 @@ use super::Session;
 use crate::picked::{Answer, Pick, Picked};
 
 impl Session {
-    /// Asks what is at a place of the picture that is shown, as shares of its width and height from the left
-    /// top corner. Nothing before the first picture, of which there is then nothing.
+    /// Picks a place of the picture that is shown, as shares of its width and height from the left top
+    /// corner. Does nothing before the first picture.
     pub fn pick(&mut self, place: [f32; 2]) {
         let Some(picture) = &self.picture else { return };
         let settings = &picture.settings;
@@ -27,7 +27,7 @@ impl Session {
         self.ask(pick, Vec::new());
     }
 
-    /// Asks all other systems of the registry, in the preset `robust`, about what was picked.
+    /// Asks all other systems of the registry, in the preset `robust`, about the pick.
     pub fn pick_through_all(&mut self) {
         let Some(picked) = self.picked.as_ref().filter(|picked| picked.answers.len() == 1) else { return };
         let shown = &picked.pick.systems;
@@ -45,22 +45,22 @@ impl Session {
         self.picked = Some(Picked { pick, answers, awaited });
     }
 
-    /// Last pick.
+    /// Returns the last pick.
     pub fn picked(&self) -> Option<&Picked> {
         self.picked.as_ref()
     }
 
-    /// Forgets it.
+    /// Forgets the last pick.
     pub fn unpick(&mut self) {
         (self.picked, self.to_pick) = (None, None);
     }
 
-    /// The pick that is to be asked about, once.
+    /// Returns the pick to ask about; only once.
     pub fn asked_pick(&mut self) -> Option<Pick> {
         self.to_pick.take()
     }
 
-    /// Turns to what was picked, and around it from then on, at `now` (seconds).
+    /// Turns to the picked point, which is the centre of turns from then on, at `now` (seconds).
     pub fn turn_to_picked(&mut self, now: f64) {
         let point = self.picked.as_ref().and_then(Picked::hit).map(|hit| hit.point);
         if let Some(point) = point
@@ -70,7 +70,7 @@ impl Session {
         }
     }
 
-    /// Brings what was picked into the focus of the lens, at `now` (seconds).
+    /// Brings the picked point into the focus of the lens, at `now` (seconds).
     pub fn focus_on_picked(&mut self, now: f64) {
         let depth = self.picked.as_ref().and_then(Picked::hit).map(|hit| hit.depth);
         if let Some((depth, lens)) = depth.zip(self.lens()) {

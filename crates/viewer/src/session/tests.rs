@@ -1,4 +1,4 @@
-//! Sessions, without a device or a window.
+//! Tests of sessions, without a device or a window.
 
 use super::*;
 use crate::camera_control::Side;
@@ -58,7 +58,7 @@ fn picture(session: &mut Session) {
 
 #[test]
 fn settings_are_asked_for_once() {
-    // That of a system that nobody named as well, whose structure is there already then.
+    // A system that nobody named stays too, and its structure exists already.
     let mut opening = opening("a.glb");
     opening.settings.system.chosen = Some("the fastest".to_owned());
     let first = opening.settings.clone();
@@ -187,7 +187,7 @@ fn pictures_are_numbered_and_never_written_over() {
     assert_eq!(place, PathBuf::from("out/a.003.png"));
 }
 
-/// An answer to what was asked last.
+/// Answers the last pick.
 fn answer(session: &mut Session, system: &str, hit: Option<PickedHit>) {
     let number = session.picked().expect("a pick").pick.number;
     take(session, Update::Answered(number, Answer { system: system.to_owned(), hit: Ok(hit) }));
@@ -311,7 +311,7 @@ fn another_scene_keeps_what_was_chosen_and_one_that_cannot_be_read_changes_nothi
     assert_eq!((settings.frame.spp, settings.scene, &settings.standpoint), (9, 1, &Standpoint::AsGiven));
     assert_eq!(settings.system, before.system, "what was set by hand stays");
     assert!(session.picture.is_none() && !session.is_camera_moved());
-    // The engine may still have made one of the scene before.
+    // The engine may still have made a picture of the scene before.
     let late = session.asked.replace(before);
     picture(&mut session);
     assert!(session.picture.is_none());
@@ -338,8 +338,8 @@ fn cameras_are_named_as_the_command_line_finds_them() {
     let camera = |name: &str| camera_looking_at(name, DVec3::Z, DVec3::ZERO, 0.5);
     loaded.scene.cameras = ["door", "", "door", "1", "0"].map(camera).to_vec();
     let names: Vec<_> = camera_names(&loaded).into_iter().collect();
-    // The second is neither found by its name, which it has not, nor by its position, which is another's
-    // name.
+    // The second camera is found neither by its name, which it lacks, nor by its index, which is another
+    // camera's name.
     let expected = [(0, "door"), (2, "2"), (3, "1"), (4, "0")];
     assert_eq!(names, expected.map(|(index, word)| (index, word.to_owned())));
     for (index, word) in names {

@@ -1,8 +1,8 @@
-//! The Vulkan instance and device that draw the window.
+//! Vulkan instance and device that draw the window.
 //!
-//! The window has a device of its own: on one queue its frames would wait behind waves of rays, which take
-//! seconds on a software driver, and where the renderer's device is lost the window still says so. Pictures
-//! come through the host.
+//! The window has a device of its own: on a shared queue its frames would wait behind waves of rays, which
+//! take seconds on a software driver, and if the renderer's device is lost, the window still reports it.
+//! Pictures come through the host.
 
 use std::ffi::CStr;
 
@@ -13,7 +13,7 @@ use winit::window::Window;
 
 const VALIDATION_LAYER: &CStr = c"VK_LAYER_KHRONOS_validation";
 
-/// An error of the window's device.
+/// Makes an error of the window's device.
 pub(super) fn window_error(
     during: &'static str,
     source: impl Into<Box<dyn std::error::Error + Send + Sync>>,
@@ -21,15 +21,15 @@ pub(super) fn window_error(
     ViewerError::Window { during, source: source.into() }
 }
 
-/// Instance and surface of a window. Everything made from them is gone before they are dropped.
+/// Instance and surface of a window. Everything made from them must be gone before they are dropped.
 pub(super) struct WindowInstance {
     pub(super) surface: vk::SurfaceKHR,
     pub(super) surfaces: ash::khr::surface::Instance,
     pub(super) instance: ash::Instance,
     messenger: Option<(ash::ext::debug_utils::Instance, vk::DebugUtilsMessengerEXT)>,
-    /// Boxed because the messenger holds its address.
+    /// Log of validation messages, boxed because the messenger holds its address.
     log: Box<ValidationLog>,
-    /// Owns the loaded library, so it is dropped last.
+    /// Loaded Vulkan library, which is dropped last because the other fields use it.
     _entry: ash::Entry,
 }
 
@@ -62,7 +62,7 @@ impl WindowInstance {
         // SAFETY: all pointers in `info` are to values that live until the call returns.
         let instance = unsafe { entry.create_instance(&info, None) }
             .map_err(|error| window_error("vkCreateInstance", error))?;
-        // From here on dropping the value destroys what was made; null handles are ignored.
+        // From here on, dropping the value destroys everything made so far; null handles are ignored.
         let mut made = Self {
             surface: vk::SurfaceKHR::null(),
             surfaces: ash::khr::surface::Instance::new(&entry, &instance),
@@ -86,7 +86,8 @@ impl WindowInstance {
         Ok(made)
     }
 
-    /// The device of that name with a family that draws and presents, else the first with one.
+    /// Chooses the device of that name with a queue family that draws and presents, otherwise the first
+    /// device with one.
     fn choose(&self, name: &str) -> Result<(vk::PhysicalDevice, u32), ViewerError> {
         // SAFETY: the instance is live.
         let all = unsafe { self.instance.enumerate_physical_devices() }
@@ -145,7 +146,7 @@ impl Drop for WindowInstance {
     }
 }
 
-/// A device that draws to a window. Everything made from it is gone before it is dropped.
+/// Device that draws to a window. Everything made from it must be gone before it is dropped.
 pub(super) struct WindowDevice {
     pub(super) physical: vk::PhysicalDevice,
     pub(super) device: ash::Device,
@@ -155,8 +156,8 @@ pub(super) struct WindowDevice {
 }
 
 impl WindowDevice {
-    /// Makes it for a window, of the physical device of the name where that can present, else of the first
-    /// that can.
+    /// Makes the device for a window, on the physical device of this name if that can present, otherwise on
+    /// the first that can.
     pub(super) fn new(window: &Window, name: &str, validation: bool) -> Result<Self, ViewerError> {
         let owner = WindowInstance::new(window, validation)?;
         let (physical, family) = owner.choose(name)?;
@@ -166,8 +167,8 @@ impl WindowDevice {
         Ok(Self { physical, device, queue, family, owner })
     }
 
-    /// Messages of the validation layer so far, and to come; the log outlives the device. Empty without
-    /// validation.
+    /// Returns the messages of the validation layer so far, and later ones; the log outlives the device. It
+    /// is empty without validation.
     pub(super) fn validation_log(&self) -> ValidationLog {
         ValidationLog::clone(&self.owner.log)
     }

@@ -1,4 +1,4 @@
-//! The window.
+//! Window with the picture and its controls.
 
 mod device;
 mod options_panel;
@@ -30,13 +30,13 @@ use painter::Painter;
 use panel::Panel;
 pub use saving::{SavePicture, SavedPicture};
 
-/// Time between looks for a signal that asks for the end.
+/// Interval between checks for a signal that asks for the end.
 const POLL: Duration = Duration::from_millis(100);
 
-/// Longest wait for a frame that was asked for before it is asked for again.
+/// Longest wait for a requested frame before it is requested again.
 const HIDDEN: Duration = Duration::from_secs(1);
 
-/// From one frame to the next while an animation plays.
+/// Interval between frames while an animation plays.
 const PLAYING: Duration = Duration::from_millis(16);
 
 /// Least inner size of the window, pixels.
@@ -44,41 +44,41 @@ const LEAST: PhysicalSize<u32> = PhysicalSize::new(480, 320);
 
 /// Inputs of a window.
 pub struct Viewing<'a> {
-    /// Makes what makes pictures, in the thread where it stays.
+    /// Function that makes the engine, in the thread where the engine stays.
     pub engine: Box<dyn FnOnce() -> Engine + Send>,
     /// Choices of the user.
     pub session: Session,
-    /// Reads scenes that are dropped on the window or named in it.
+    /// Function that reads scenes that are dropped on the window or named in it.
     pub open: Arc<OpenScene>,
-    /// Name of the engine's device: the window is drawn by the same where that can present.
+    /// Name of the engine's device, which also draws the window if it can present.
     pub device: String,
     /// True if messages of the validation layer are errors.
     pub validation: bool,
-    /// True once the window shall close.
+    /// Function that is true once the window shall close.
     pub stop: &'a dyn Fn() -> bool,
-    /// Saves pictures.
+    /// Function that saves pictures.
     pub save: &'a mut SavePicture<'a>,
 }
 
-/// Why a window was closed.
+/// Reason for which a window was closed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum End {
-    /// By hand.
+    /// The user closed the window.
     Closed,
-    /// [`Viewing::stop`] asked for it.
+    /// [`Viewing::stop`] asked for the end.
     Stopped,
 }
 
-/// The window system gives no window.
+/// Makes the error of a refused window.
 fn no_window(source: impl Into<Box<dyn std::error::Error + Send + Sync>>) -> ViewerError {
     ViewerError::NoWindow { source: source.into() }
 }
 
-/// That there is a display, before anything is done for it: without one some window systems fail in ways that
-/// nothing can catch.
+/// Checks that there is a display, before anything is done for it: without one some window systems fail in
+/// ways that cannot be caught.
 ///
 /// # Errors
-/// Nothing names a display.
+/// No environment variable names a display.
 pub fn check_display() -> Result<(), ViewerError> {
     let is_set = |name: &str| std::env::var_os(name).is_some_and(|value| !value.is_empty());
     if cfg!(all(unix, not(target_vendor = "apple")))
@@ -89,13 +89,14 @@ pub fn check_display() -> Result<(), ViewerError> {
     Ok(())
 }
 
-/// Opens the window and shows the scene until it is closed. Call it in the main thread, once in a process.
+/// Opens the window and shows the scene until the window is closed. Call it in the main thread, once per
+/// process.
 ///
 /// # Errors
-/// There is no display, or the window cannot be drawn. What goes wrong with a picture is shown in the window.
+/// There is no display, or the window cannot be drawn. Failures of a picture are shown in the window.
 pub fn run(viewing: Viewing<'_>) -> Result<End, ViewerError> {
     check_display()?;
-    // Libraries of the window system that are not there are a panic of theirs.
+    // Missing libraries of the window system make its crate panic.
     let made = std::panic::catch_unwind(|| EventLoop::<()>::with_user_event().build());
     let events = match made {
         Ok(Ok(events)) => events,
@@ -105,7 +106,7 @@ pub fn run(viewing: Viewing<'_>) -> Result<End, ViewerError> {
     let Viewing { engine, session, open, device, validation, stop, save } = viewing;
     let wake = events.create_proxy();
     let viewer = Viewer::start(session, engine, open, move || {
-        // A window that has gone needs no waking.
+        // A window that is gone needs no waking.
         _ = wake.send_event(());
     })
     .map_err(|error| device::window_error("a thread", error))?;
@@ -141,22 +142,22 @@ pub fn run(viewing: Viewing<'_>) -> Result<End, ViewerError> {
     }
 }
 
-/// Title of a window of a scene.
+/// Returns the title of a scene's window.
 fn title(scene: &str) -> String {
     format!("{scene} - rasray")
 }
 
-/// A window that is open. The painter goes before the window.
+/// Open window. The painter is dropped before the window.
 struct Live {
     painter: Painter,
     input: egui_winit::State,
     window: Window,
 }
 
-/// A viewer with its window.
+/// Viewer with its window.
 struct Shown<'a> {
     viewer: Viewer,
-    /// The scene that the window's title names.
+    /// Name of the scene in the window's title.
     title: String,
     device: String,
     validation: bool,
@@ -168,7 +169,7 @@ struct Shown<'a> {
     frame_began: Instant,
     /// Rate of frames of the window.
     frames: Rate,
-    /// When the next frame is due.
+    /// Time at which the next frame is due.
     wake_at: Instant,
     end: End,
     failed: Option<ViewerError>,
@@ -191,7 +192,7 @@ impl Shown<'_> {
         Ok(Live { painter, input, window })
     }
 
-    /// Lets the frame's interface run, and draws it.
+    /// Runs the interface of a frame, and draws the frame.
     fn frame(&mut self) -> Result<(), ViewerError> {
         let Some(live) = &mut self.live else { return Ok(()) };
         let elapsed = self.frame_began.elapsed().as_secs_f64();
@@ -211,7 +212,7 @@ impl Shown<'_> {
         let size = live.window.inner_size();
         let size = [size.width, size.height];
         let painted = live.painter.paint(size, scale, &primitives, &mut output.textures_delta);
-        // Textures that an error left there are dropped on purpose.
+        // Textures that remain after an error are dropped on purpose.
         output.textures_delta.clear();
         painted?;
         self.viewer.ask(now).map_err(|error| device::window_error("a thread", error))?;
@@ -236,7 +237,7 @@ impl Shown<'_> {
         }
     }
 
-    /// Asks for a frame where one is due. A window that is hidden may not get it, and must not ask all the
+    /// Requests a frame if one is due. A hidden window may not get its frame, and must not request it all the
     /// time.
     fn request_due_frame(&mut self) {
         if Instant::now() >= self.wake_at {
@@ -298,7 +299,7 @@ impl ApplicationHandler<()> for Shown<'_> {
                 }
                 return;
             }
-            // Where several files are dropped the last one is shown.
+            // If several files are dropped, the last one is shown.
             WindowEvent::DroppedFile(path) => self.viewer.session.drop_file(path.clone()),
             WindowEvent::Resized(_) | WindowEvent::ScaleFactorChanged { .. } => live.painter.resized(),
             _ => (),

@@ -1,4 +1,4 @@
-//! Systems, presets and options, as their rows say them.
+//! Panel of systems, presets and options, as their rows describe them.
 
 use egui::{DragValue, RichText};
 use rasray_experiment::IntegratorSpec;
@@ -63,13 +63,14 @@ pub(super) fn show_integrator_options(ui: &mut egui::Ui, session: &mut Session) 
     let mut options = integrator.options().clone();
     let header = format!("Options: {}", row.name);
     show_options(ui, &header, true, row.options, &mut options, |row| row.default);
-    // Controls give only values that their options take.
+    // Controls give only values that their options accept.
     if let Ok(changed) = IntegratorSpec::new(row, &options) {
         *integrator = changed;
     }
 }
 
-/// Shows options under a header, which says how many are set; `by_default` is what one is that is not.
+/// Shows options under a header with the number of options that are set; `by_default` returns the value of an
+/// option that is not set.
 fn show_options(
     ui: &mut egui::Ui,
     header: &str,
@@ -90,7 +91,7 @@ fn show_options(
     });
 }
 
-/// An option: its name, what sets it, and what leaves it to its default.
+/// Shows an option: its name, its control, and the button that resets it to its default.
 fn show_option(ui: &mut egui::Ui, row: &OptionRow, options: &mut OptionValues, by_default: Option<Value>) {
     let set = options.get(row.name);
     let name = RichText::new(row.name);
@@ -108,7 +109,7 @@ fn show_option(ui: &mut egui::Ui, row: &OptionRow, options: &mut OptionValues, b
     }
 }
 
-/// Shows an option whose value in force is known or not; returns the value that it was set to now.
+/// Shows an option, whose current value may be unknown; returns the value that the user set now.
 fn show_control(ui: &mut egui::Ui, row: &OptionRow, value: Option<Value>) -> Option<Value> {
     match Control::of(row) {
         Control::Switch => {
@@ -156,7 +157,7 @@ fn show_control(ui: &mut egui::Ui, row: &OptionRow, value: Option<Value>) -> Opt
             let response = ui.add(egui::TextEdit::singleline(&mut typed).desired_width(90.0).hint_text(hint));
             if response.lost_focus() {
                 ui.data_mut(|data| data.remove::<String>(id));
-                // Text that the option does not take leaves the option as it is.
+                // Text that the option does not accept leaves the option unchanged.
                 return row.parse(&typed).ok().filter(|typed| Some(*typed) != value);
             }
             if response.changed() {

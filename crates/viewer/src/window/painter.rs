@@ -1,4 +1,4 @@
-//! Draws what egui wants to a window, one frame at a time.
+//! Painter that draws the shapes of egui to a window, one frame at a time.
 
 use std::time::Duration;
 
@@ -15,9 +15,9 @@ use super::swapchain::{Swapchain, is_srgb, surface_format};
 /// Longest wait for the window system or the device.
 const TIMEOUT: Duration = Duration::from_secs(10);
 
-/// Draws a window. Every frame is waited for, so that nothing that it uses is in use afterwards.
+/// Painter of a window. It waits for every frame, so that no resource of a frame is in use afterwards.
 pub(super) struct Painter {
-    /// Taken when it is dropped, before the device.
+    /// Renderer, taken when the painter is dropped, before the device.
     renderer: Option<Renderer<DefaultAllocator>>,
     swapchain: Option<Swapchain>,
     /// True if the swapchain no longer fits the window.
@@ -32,11 +32,11 @@ pub(super) struct Painter {
 }
 
 impl Painter {
-    /// Makes it for a window, on the device of the name where it can present.
+    /// Makes the painter for a window, on the device of this name if that can present.
     pub(super) fn new(window: &Window, name: &str, validation: bool) -> Result<Self, ViewerError> {
         let device = WindowDevice::new(window, name, validation)?;
         let format = surface_format(&device)?;
-        // From here on dropping the value destroys what was made; null handles are ignored.
+        // From here on, dropping the value destroys everything made so far; null handles are ignored.
         let mut made = Self {
             renderer: None,
             swapchain: None,
@@ -101,7 +101,7 @@ impl Painter {
             .pipeline_bind_point(vk::PipelineBindPoint::GRAPHICS)
             .color_attachments(&colours)];
         let output = vk::PipelineStageFlags::COLOR_ATTACHMENT_OUTPUT;
-        // The image is written only once it was acquired.
+        // The image is written only after it was acquired.
         let dependencies = [vk::SubpassDependency::default()
             .src_subpass(vk::SUBPASS_EXTERNAL)
             .src_stage_mask(output)
@@ -116,17 +116,17 @@ impl Painter {
             .map_err(|error| window_error("vkCreateRenderPass", error))
     }
 
-    /// The window has another size, or may have.
+    /// Takes note that the window has, or may have, another size.
     pub(super) fn resized(&mut self) {
         self.is_old = true;
     }
 
-    /// Messages of the validation layer; the list outlives the painter.
+    /// Returns the messages of the validation layer; the log outlives the painter.
     pub(super) fn validation_log(&self) -> ValidationLog {
         self.device.validation_log()
     }
 
-    /// Takes over the textures of a frame. They must be taken over in order even where nothing is drawn.
+    /// Uploads the textures of a frame. They must be uploaded in order even if nothing is drawn.
     fn set_textures(&mut self, textures: &mut egui::TexturesDelta) -> Result<(), ViewerError> {
         let Some(renderer) = &mut self.renderer else { return Ok(()) };
         for (id, deltas) in std::mem::take(&mut textures.set) {
@@ -139,8 +139,8 @@ impl Painter {
         Ok(())
     }
 
-    /// Draws a frame and waits for it. False where the window has no pixels or another size than its images,
-    /// so that nothing was drawn. `size` is the window's in pixels.
+    /// Draws a frame and waits for it. Returns false, without drawing, if the window has no pixels or another
+    /// size than its images. `size` is the window's in pixels.
     pub(super) fn paint(
         &mut self,
         size: [u32; 2],
@@ -150,7 +150,7 @@ impl Painter {
     ) -> Result<bool, ViewerError> {
         self.set_textures(textures)?;
         let drawn = self.draw(size, scale, primitives)?;
-        // The frame was waited for.
+        // The last frame was waited for.
         if let Some(renderer) = &mut self.renderer {
             for id in std::mem::take(&mut textures.free) {
                 renderer.free_texture(id).map_err(|error| window_error("a texture", error))?;
@@ -218,7 +218,7 @@ impl Painter {
             .framebuffer(target.framebuffer)
             .render_area(vk::Rect2D { offset: vk::Offset2D::default(), extent })
             .clear_values(&clear);
-        // SAFETY: the command buffer was waited for, and is reset by being begun.
+        // SAFETY: the last use of the command buffer was waited for, and beginning the buffer resets it.
         unsafe { device.begin_command_buffer(self.command, &begin) }.map_err(failed)?;
         // SAFETY: recording; the framebuffer was made for the render pass.
         unsafe { device.cmd_begin_render_pass(self.command, &pass, vk::SubpassContents::INLINE) };
@@ -265,8 +265,8 @@ impl Painter {
     }
 
     fn wait_idle(&self) {
-        // SAFETY: the queue is used by this thread alone. What cannot be waited for is lost, and nothing runs
-        // there.
+        // SAFETY: the queue is used by this thread alone. If the wait fails, the device is lost, and nothing
+        // runs on it.
         _ = unsafe { self.device.device.device_wait_idle() };
     }
 }

@@ -17,10 +17,10 @@ use crate::session::{Failure, Session};
 /// Width of the panel, points.
 const WIDTH: f32 = 330.0;
 
-/// Seconds that it is said what a key has done.
+/// Time for which a notice about a key is shown, seconds.
 const NOTICE: f64 = 5.0;
 
-/// Keys and what they do.
+/// Keys and their actions.
 const KEYS: &[(&str, &str)] = &[
     ("left drag", "turn around the scene"),
     ("right drag", "look around"),
@@ -43,38 +43,38 @@ const KEYS: &[(&str, &str)] = &[
     ("Ctrl+Q", "close"),
 ];
 
-/// Keys of sides, the opposite with the command key. Digits of both keyboards, by their places.
+/// Keys of sides; with the command key the opposite side. Digits of both keyboards, by their places.
 const SIDES: [(Key, [Side; 2]); 3] = [
     (Key::Num1, [Side::Front, Side::Back]),
     (Key::Num3, [Side::Right, Side::Left]),
     (Key::Num7, [Side::Top, Side::Bottom]),
 ];
 
-/// When a frame of the window is.
+/// Time of a frame of the window.
 #[derive(Clone, Copy)]
 pub(super) struct Moment {
     /// Seconds since the window was opened.
     pub(super) now: f64,
-    /// Seconds since the frame before.
+    /// Seconds since the last frame.
     pub(super) elapsed: f64,
-    /// Frames of the window a second, once that is known.
+    /// Frames of the window per second, once that is known.
     pub(super) frames: Option<f64>,
 }
 
-/// Message about what a key or a button has done.
+/// Message about the action of a key or a button.
 struct Notice {
     text: String,
     is_error: bool,
-    /// Until when, seconds.
+    /// Time until which the message is shown, seconds.
     until: f64,
 }
 
-/// The inner size of a window for a picture of this size, points.
+/// Returns the inner size of a window for a picture of this size, points.
 pub(super) fn window_size([width, height]: [u32; 2]) -> [f32; 2] {
     [(width as f32).clamp(320.0, 1500.0) + WIDTH, (height as f32).clamp(560.0, 1000.0)]
 }
 
-/// Text that is easy to read, on dark.
+/// Sets a style with text that is easy to read on a dark ground.
 pub(super) fn set_style(context: &egui::Context) {
     context.set_theme(egui::Theme::Dark);
     context.all_styles_mut(|style| {
@@ -85,14 +85,14 @@ pub(super) fn set_style(context: &egui::Context) {
     });
 }
 
-/// The panel and what it remembers of a window.
+/// Panel with its state.
 pub(super) struct Panel {
     area: PictureArea,
     is_open: bool,
     notice: Option<Notice>,
-    /// The name of a scene to be opened, as it is typed.
+    /// Name of a scene to be opened, as typed.
     typed: String,
-    /// True if a key asked for what is typed there.
+    /// True if a key asked for the field of this name.
     wants_name: bool,
     /// True if a key asked for the end.
     pub(super) wants_to_close: bool,
@@ -112,7 +112,7 @@ impl Default for Panel {
 }
 
 impl Panel {
-    /// Shows panel and picture of a frame.
+    /// Shows the panel and the picture in a frame.
     pub(super) fn show(
         &mut self,
         ui: &mut egui::Ui,
@@ -134,7 +134,7 @@ impl Panel {
         show_not_opened(ui.ctx(), session, place);
     }
 
-    /// Says on the picture what was done, whether the panel is there or not.
+    /// Shows a notice on the picture, with or without the panel.
     fn show_notice(&mut self, context: &egui::Context, place: egui::Rect, now: f64) {
         let Some(Notice { text, is_error, until }) = &self.notice else { return };
         if now >= *until {
@@ -249,7 +249,7 @@ impl Panel {
         });
     }
 
-    /// Shows how to open another scene, and what came of it.
+    /// Shows the field for another scene, and the state of its opening.
     fn show_opening(&mut self, ui: &mut egui::Ui, session: &mut Session) {
         ui.horizontal(|ui| {
             let typed = egui::TextEdit::singleline(&mut self.typed)
@@ -333,13 +333,13 @@ fn next_place(session: &Session) -> PathBuf {
     session.place_for_picture(|place| place.exists())
 }
 
-/// The command line of the picture that is shown; of maps there is none.
+/// Returns the command line of the picture that is shown; `None` for maps.
 fn command_line(session: &Session) -> Option<String> {
     let picture = session.picture.as_ref().filter(|picture| matches!(picture.pixels, Pixels::Radiance(_)))?;
     Some(session.command_line(&picture.settings, &next_place(session)))
 }
 
-/// Shows something over a corner of the picture.
+/// Shows a widget over a corner of the picture.
 fn over_picture(
     context: &egui::Context,
     place: egui::Rect,
@@ -358,7 +358,7 @@ fn over_picture(
         });
 }
 
-/// Says why a scene is not shown that was to be opened, until that was read.
+/// Shows why a scene could not be opened, until the user has read it.
 fn show_not_opened(context: &egui::Context, session: &mut Session, place: egui::Rect) {
     let Some(failure) = session.not_opened().cloned() else { return };
     over_picture(context, place, egui::Align2::LEFT_TOP, |ui| {
@@ -372,7 +372,8 @@ fn show_not_opened(context: &egui::Context, session: &mut Session, place: egui::
     });
 }
 
-/// `Some` if the digit of a key, by its place on either keyboard, was pressed; true if with the command key.
+/// Returns `Some` if the digit of a key, by its place on either keyboard, was pressed; true if with the
+/// command key.
 fn take_digit(context: &egui::Context, digit: Key) -> Option<bool> {
     context.input(|input| {
         input.events.iter().find_map(|event| match event {
@@ -391,7 +392,7 @@ fn show_failure(ui: &mut egui::Ui, failure: &Failure) {
     }
 }
 
-/// Shows how often the window is drawn, and pictures come.
+/// Shows the rates of window frames and of pictures.
 fn show_rates(ui: &mut egui::Ui, session: &Session, moment: Moment) {
     let (window, pictures) = (moment.frames, session.picture_rate.per_second(moment.now));
     let [window, pictures] = [window, pictures].map(|rate| rate.unwrap_or(0.0));

@@ -1,11 +1,11 @@
-//! Shows a pick, and what each system says of it.
+//! Panel of a pick and the answer of each system.
 
 use egui::RichText;
 
 use crate::picked::{Answer, PickedHit};
 use crate::session::Session;
 
-/// Shows it, if there is anything.
+/// Shows the pick, if there is one.
 pub(super) fn show_picked(ui: &mut egui::Ui, session: &mut Session, now: f64) {
     let Some(picked) = session.picked() else { return };
     ui.separator();
@@ -70,7 +70,7 @@ fn show_hit(ui: &mut egui::Ui, hit: &PickedHit) {
     });
 }
 
-/// Depth and triangle; how far the depth is from that of the system that is shown.
+/// Shows depth and triangle of an answer, and the difference in depth to the system that is shown.
 fn show_answer(ui: &mut egui::Ui, answer: &Result<Option<PickedHit>, String>, shown: Option<&PickedHit>) {
     match answer {
         Err(error) => {

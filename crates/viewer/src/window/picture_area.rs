@@ -1,4 +1,4 @@
-//! The picture in the window: how large and where, the camera moved on it, and points picked in it.
+//! Area of the picture in the window: its size and place, the motion of the camera, and picks.
 
 use egui::{
     Color32, ColorImage, Key, PointerButton, Pos2, Rect, Sense, Stroke, TextureHandle, TextureOptions, Vec2,
@@ -11,42 +11,42 @@ use crate::picture::Picture;
 use crate::picture_view::{Area, PictureView};
 use crate::session::Session;
 
-/// Radians of a drag over a point.
+/// Angle of turn per point of a drag, radians.
 const TURN: f64 = 0.006;
 
-/// Half diagonals of the scene that are flown in a second.
+/// Speed of flight, half diagonals of the scene per second.
 const SPEED: f64 = 0.5;
 
-/// Factor by which a key makes the picture larger.
+/// Factor by which a key scales the picture.
 const STEP: f32 = 1.25;
 
 /// Grey around the picture.
 const AROUND: Color32 = Color32::from_gray(24);
 
-/// The picture that something belongs to, by its number, and how its colours are shown.
+/// Number of a picture, and the tone in which it is shown.
 type Of = (u64, Tone);
 
-/// The picture as a texture, and where it lies.
+/// Picture as a texture, and its place.
 #[derive(Default)]
 pub(super) struct PictureArea {
-    /// The picture's pixels.
+    /// Colours of the picture's pixels.
     colours: Vec<Color32>,
     colours_of: Option<Of>,
     texture: Option<TextureHandle>,
-    /// Contents of the texture: the picture's pixels, or those of the window where a picture lies whose
-    /// pixels are squares.
+    /// Contents of the texture: the picture's pixels or, if pixels are squares, the window's pixels over the
+    /// picture.
     texture_of: Option<(Of, Option<Squares>)>,
-    /// The scene that the picture is laid for.
+    /// Number of the scene for which the picture was placed.
     scene: u32,
     pub(super) view: PictureView,
-    /// Pixels of the area in the last frame.
+    /// Size of the area in the last frame, pixels.
     pub(super) pixels: [u32; 2],
     /// Position of the pointer on the picture, shares of width and height.
     pointed: Option<[f32; 2]>,
 }
 
 impl PictureArea {
-    /// Shows the session's picture in what is left of `ui`.
+    /// Shows the session's picture in the rest of `ui`.
     pub(super) fn show(&mut self, ui: &mut egui::Ui, session: &mut Session, moment: Moment) {
         let area = ui.available_rect_before_wrap();
         let response = ui.allocate_rect(area, Sense::click_and_drag());
@@ -65,10 +65,10 @@ impl PictureArea {
                 self.view.fit();
             }
             let place = self.view.place(within, full);
-            // A picture shown while something moves has fewer pixels, and is smooth as it is.
+            // A picture that is shown while something moves has fewer pixels, and stays smooth.
             let has_squares = !picture.settings.moving && self.view.shows_squares(within, full);
             let window = within.whole();
-            // A window may have no room for a picture.
+            // A window may be too small for a picture.
             let has_room = window.size.iter().all(|side| *side >= 1.0);
             let squares = (has_squares && has_room).then_some(Squares { place, window });
             self.update(ui.ctx(), picture, (session.pictures, session.tone), squares);
@@ -94,15 +94,15 @@ impl PictureArea {
         }
     }
 
-    /// Picks what the pointer is on.
+    /// Picks the point under the pointer.
     fn pick(&self, session: &mut Session) {
         if let Some(place) = self.pointed {
             session.pick(place);
         }
     }
 
-    /// Takes the picture over where it is another. The window's renderer interpolates between pixels; where a
-    /// pixel of the texture is one of the window, that changes none.
+    /// Uploads the picture if it has changed. The window's renderer interpolates between pixels, which
+    /// changes nothing where a pixel of the texture is a pixel of the window.
     fn update(&mut self, context: &egui::Context, picture: &Picture, of: Of, squares: Option<Squares>) {
         if self.texture_of == Some((of, squares)) {
             return;
@@ -141,7 +141,7 @@ impl PictureArea {
     ) {
         let points = ui.ctx().pixels_per_point();
         let centre = area.at([0.5; 2]);
-        // The wheel with the command key, or a pinch.
+        // Zoom comes from the wheel with the command key, or from a pinch.
         let pinched = ui.input(|input| input.zoom_delta());
         if response.hovered() && pinched != 1.0 {
             self.view.zoom(pinched, pointer.unwrap_or(centre), area, full);
@@ -172,9 +172,9 @@ impl PictureArea {
 /// Place of a picture whose pixels are squares.
 #[derive(Clone, Copy, PartialEq)]
 struct Squares {
-    /// The picture.
+    /// Area of the picture.
     place: Area,
-    /// Whole pixels of the window.
+    /// Area in whole pixels of the window.
     window: Area,
 }
 
@@ -189,7 +189,7 @@ fn points_of(Area { corner, size }: Area, points: f32) -> Rect {
     Rect::from_min_size(Pos2::new(corner[0], corner[1]) / points, Vec2::new(size[0], size[1]) / points)
 }
 
-/// A mark on what was picked, while it is seen from where it was picked.
+/// Draws a mark on the picked point, if the picture is seen from where it was picked.
 fn show_picked(painter: &egui::Painter, session: &Session, picture: &Picture, place: Rect) {
     let Some(pick) = session.picked().map(|picked| &picked.pick) else { return };
     let is_from_there = pick.camera.world_from_camera == picture.camera.world_from_camera;
@@ -240,7 +240,7 @@ fn move_camera(ui: &egui::Ui, response: &egui::Response, area: Rect, session: &m
     let [forward, right, up] = [flown(Key::W, Key::S), flown(Key::D, Key::A), flown(Key::E, Key::Q)];
     if [forward, right, up] != [0.0; 3] {
         let fast = if ui.input(|input| input.modifiers.shift) { 4.0 } else { 1.0 };
-        // After a pause the first step is as one of a slow picture.
+        // After a pause the first step is limited to that of a slow picture.
         let step = fast * SPEED * session.radius() * elapsed.min(0.1);
         if let Some(camera) = session.move_camera(now) {
             camera.fly(forward * step, right * step, up * step);

@@ -1,4 +1,4 @@
-//! The images of a window, and how they are shown.
+//! Swapchain: the images of a window, and their presentation.
 
 use rasray_gpu::{ash, vk};
 
@@ -6,8 +6,8 @@ use crate::error::ViewerError;
 
 use super::device::{WindowDevice, window_error};
 
-/// The format of a surface's images: an sRGB one, so that bytes of pictures arrive as they are; else its
-/// first.
+/// Returns the format of a surface's images: an sRGB format, which keeps the bytes of pictures, otherwise the
+/// first format.
 pub(super) fn surface_format(device: &WindowDevice) -> Result<vk::SurfaceFormatKHR, ViewerError> {
     // SAFETY: physical device and surface belong to one instance.
     let formats = unsafe {
@@ -22,16 +22,16 @@ pub(super) fn surface_format(device: &WindowDevice) -> Result<vk::SurfaceFormatK
     chosen.ok_or_else(|| window_error("surface formats", "the surface has none"))
 }
 
-/// True if bytes of sRGB are stored as they are.
+/// True if the format stores bytes of sRGB unchanged.
 pub(super) fn is_srgb(format: vk::Format) -> bool {
     format!("{format:?}").contains("SRGB")
 }
 
-/// An image of the swapchain, with what draws to it.
+/// Image of the swapchain, with the objects for drawing to it.
 pub(super) struct Target {
     view: vk::ImageView,
     pub(super) framebuffer: vk::Framebuffer,
-    /// Drawing to it has ended.
+    /// Semaphore that is signalled when drawing to the image has ended.
     pub(super) drawn: vk::Semaphore,
 }
 
@@ -44,8 +44,8 @@ pub(super) struct Swapchain {
 }
 
 impl Swapchain {
-    /// Makes one of a window's size in pixels; nothing where the window has no pixels, as while it is
-    /// minimised. The one before is retired and stays its owner's to destroy.
+    /// Makes a swapchain of the window's size in pixels; `None` if the window has no pixels, as while it is
+    /// minimised. The old swapchain is retired, and its owner must destroy it.
     pub(super) fn new(
         device: &WindowDevice,
         format: vk::SurfaceFormatKHR,
@@ -61,7 +61,7 @@ impl Swapchain {
                 .get_physical_device_surface_capabilities(device.physical, device.owner.surface)
         }
         .map_err(|error| window_error("surface capabilities", error))?;
-        // A width of all ones leaves the size to the swapchain.
+        // A width of all ones lets the swapchain decide the size.
         let extent = if able.current_extent.width == u32::MAX {
             let (least, most) = (able.min_image_extent, able.max_image_extent);
             vk::Extent2D {
@@ -150,9 +150,9 @@ impl Swapchain {
         Ok(())
     }
 
-    /// Destroys it; the device does nothing with it any more.
+    /// Destroys the swapchain; the device must no longer use it.
     pub(super) fn destroy(&mut self, device: &WindowDevice) {
-        // SAFETY: the caller vouches that the device is idle; null handles are ignored.
+        // SAFETY: the caller guarantees that the device is idle; null handles are ignored.
         unsafe {
             for target in self.targets.drain(..) {
                 device.device.destroy_framebuffer(target.framebuffer, None);

@@ -1,10 +1,10 @@
-//! Times of passes and bytes of parts.
+//! Tables of the times of passes and of the bytes of parts.
 
 use rasray_report::{bytes, duration, grouped};
 
 use crate::picture::Picture;
 
-/// Shows what a picture took.
+/// Shows the costs of a picture.
 pub(super) fn show_tables(ui: &mut egui::Ui, picture: &Picture) {
     let total: f64 = picture.passes.iter().map(|pass| pass.ms_median).sum();
     let title = format!("Times of passes ({})", duration(total));

@@ -1,4 +1,4 @@
-//! Controls of the picture: how it is shown, its light, its camera and its time.
+//! Controls of the picture: its view, its light, its camera and its time.
 
 use egui::{Color32, DragValue, Slider};
 use rasray_experiment::INTEGRATORS;
@@ -12,7 +12,7 @@ use crate::picture_view::PictureView;
 use crate::session::Session;
 use crate::settings::Shown;
 
-/// Shows what the picture is of, and how it lies in the window.
+/// Shows the controls of the picture's subject and of its place in the window.
 pub(super) fn show_view(ui: &mut egui::Ui, session: &mut Session, area: &mut PictureArea, now: f64) {
     egui::Grid::new("view").num_columns(2).show(ui, |ui| {
         ui.label("Show");
@@ -158,7 +158,7 @@ fn show_legend(ui: &mut egui::Ui, session: &Session) {
     }
 }
 
-/// A bar of the colours of a scale, the darkest left.
+/// Shows a bar of the colours of a scale, the darkest on the left.
 fn show_colours(ui: &mut egui::Ui, scale: &Scale) {
     let (bar, _) = ui.allocate_exact_size(egui::vec2(120.0, 12.0), egui::Sense::hover());
     let count = (bar.width() as usize).max(1);

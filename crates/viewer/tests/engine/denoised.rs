@@ -1,4 +1,4 @@
-//! Noise taken out of what is shown.
+//! Tests of denoising in the viewer.
 
 use std::ffi::OsStr;
 
@@ -9,12 +9,12 @@ use rasray_viewer::{Pixels, Rounded, Settings, Shown, Standpoint, Step, ViewerEr
 
 use crate::{VALIDATED, engine, finished, integrator, radiance, rendered_as, settings, system, told};
 
-/// The library of this machine; without it the test of this name is said to be skipped.
+/// Returns the library of this machine; without it, reports the test of this name as skipped.
 fn library(test: &str) -> Option<Denoiser> {
     Denoiser::find().map_err(|error| eprintln!("skipped: {test}: {error}")).ok()
 }
 
-/// Pictures of `rasray render --denoise` with settings: as rendered, and the same without noise.
+/// Renders the picture of settings as `rasray render --denoise` does: with noise, and denoised.
 fn pictures(
     backend: &mut dyn Backend,
     denoiser: &Denoiser,
@@ -38,7 +38,7 @@ fn what_is_shown_without_noise_is_what_a_render_makes_without_it() {
     let mut backend = open(&VALIDATED).expect("a device");
     let mut settings = settings();
     settings.system = system("bvh");
-    // The first has materials on the device anyway, the second for the denoiser alone.
+    // The first integrator needs materials on the device anyway, the second only for the denoiser.
     for name in ["path", "ao"] {
         settings.frame.integrator = integrator(name);
         settings.frame.seed += 1;
@@ -66,8 +66,8 @@ fn what_is_shown_without_noise_is_what_a_render_makes_without_it() {
     }
 }
 
-/// A picture whose samples are there is not rendered again, and one that refines is shown from its first
-/// sample on.
+/// Checks that a picture with all samples is denoised without a new render, and that a refining picture is
+/// shown from its first sample on.
 #[test]
 fn noise_is_taken_out_while_a_picture_refines_and_of_one_that_is_there() {
     let Some(_) = library("noise_is_taken_out_while_a_picture_refines_and_of_one_that_is_there") else {
@@ -96,7 +96,7 @@ fn noise_is_taken_out_while_a_picture_refines_and_of_one_that_is_there() {
         assert_eq!((picture.denoised.is_some(), picture.is_finished()), (denoised, true));
         assert!(matches!(engine.step(&mut |_| ()), Ok(Step::Done)));
     }
-    // Maps and what moves are what they were.
+    // Maps, and pictures while something moves, are not changed by denoising.
     settings.shown = Shown::Difference;
     engine.apply(settings.clone());
     let picture = finished(&mut engine);

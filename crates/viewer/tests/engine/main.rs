@@ -1,5 +1,5 @@
-//! Pictures of an engine on a device, without a window: those of a render, bit by bit, after every kind of
-//! change.
+//! Tests of pictures of an engine on a device, without a window: they equal those of a render, bit for bit,
+//! after every kind of change.
 
 mod denoised;
 mod viewing;
@@ -84,12 +84,12 @@ fn engine_for(source: SceneSource, settings: &Settings) -> Engine {
     Engine::new(device, true, source, settings.clone())
 }
 
-/// The picture that refinement ends at.
+/// Returns the picture at the end of its refinement.
 fn finished(engine: &mut Engine) -> Picture {
     told(engine).0
 }
 
-/// As [`finished`], with the texts of long work.
+/// Returns the picture as [`finished`], with the texts about long work.
 fn told(engine: &mut Engine) -> (Picture, Vec<String>) {
     let (mut last, mut told) = (None, Vec::new());
     for _ in 0..1000 {
@@ -102,7 +102,7 @@ fn told(engine: &mut Engine) -> (Picture, Vec<String>) {
     panic!("it does not end");
 }
 
-/// The first picture.
+/// Returns the first picture.
 fn first(engine: &mut Engine) -> Picture {
     loop {
         match engine.step(&mut |_| ()).expect("a step") {
@@ -120,7 +120,7 @@ fn radiance(picture: &Picture) -> &[[f32; 3]] {
     }
 }
 
-/// Pixels of a render of the same settings.
+/// Renders the pixels of the settings by a render job.
 fn rendered(backend: &mut dyn Backend, settings: &Settings) -> Vec<[f32; 3]> {
     rendered_of(OsStr::new("cornell"), backend, settings)
 }
@@ -133,7 +133,7 @@ fn rendered_with(loaded: LoadedScene, backend: &mut dyn Backend, settings: &Sett
     rendered_as(loaded, backend, settings, AovSelection::default()).beauty
 }
 
-/// With further images.
+/// Renders the settings with additional images.
 fn rendered_as(
     mut loaded: LoadedScene,
     backend: &mut dyn Backend,
@@ -194,12 +194,12 @@ fn pictures_are_those_of_a_render_after_every_change() {
     check(&mut engine, &settings, "another system");
     settings.frame.integrator = integrator("raycast");
     check(&mut engine, &settings, "another integrator");
-    // While something moves there are fewer pixels, and afterwards all of them.
+    // While something moves there are fewer pixels, afterwards all of them.
     settings.moving = true;
     engine.apply(settings.clone());
     let preview = first(&mut engine);
     assert!(preview.width < 33 && preview.settings.moving && !preview.is_finished());
-    // A small one is fast, so that all pixels come back.
+    // A small picture is fast, so that all pixels come back.
     assert!(finished(&mut engine).settings.moving);
     settings.moving = false;
     check(&mut engine, &settings, "after something moved");
@@ -207,7 +207,8 @@ fn pictures_are_those_of_a_render_after_every_change() {
     assert!(seen[2] == seen[3] && seen[4] == seen[5], "and such that cannot");
 }
 
-/// A rig and a simulation, through an exact system and one that is not, at times and at rest in between.
+/// Checks a rig and a simulation, through an exact system and one that is not, at times and at rest in
+/// between.
 #[test]
 fn a_scene_that_moves_is_posed_on_the_device_and_is_that_of_a_render_at_any_time() {
     let mut backend = open(&VALIDATED).expect("a device");
@@ -233,7 +234,7 @@ fn a_scene_that_moves_is_posed_on_the_device_and_is_that_of_a_render_at_any_time
                 "{scene:?} at {seconds:?}: another picture than a render"
             );
             let is_uploaded = told.iter().any(|text| text == "scene to the device");
-            // From one time to the next everything stays but what moves.
+            // From one time to the next everything stays except the moving parts.
             assert_eq!(is_uploaded, !matches!(step, 2 | 3), "{scene:?} at {seconds:?}: {told:?}");
             assert!(step != 2 || told.is_empty(), "{scene:?} at {seconds:?}: {told:?}");
             seen.push(expected);
@@ -246,7 +247,7 @@ fn a_scene_that_moves_is_posed_on_the_device_and_is_that_of_a_render_at_any_time
     }
 }
 
-/// Triangles of numbered files are others at every time: these are posed and uploaded anew.
+/// Checks numbered files, whose triangles differ at every time: they are posed and uploaded anew.
 #[test]
 fn numbered_files_are_those_of_a_render_at_any_time() {
     let folder = tempfile::tempdir().expect("a folder");
@@ -271,7 +272,7 @@ fn numbered_files_are_those_of_a_render_at_any_time() {
     }
 }
 
-/// The Cornell box with its lamp hidden at rest, by a scale of 0, and shown from second 1 to 2.
+/// Returns the Cornell box with its lamp hidden at rest, by a scale of 0, and shown from second 1 to 2.
 fn blinking() -> LoadedScene {
     let mut loaded = load(OsStr::new("cornell")).expect("a scene");
     let scene = &mut loaded.scene;
@@ -299,7 +300,7 @@ fn blinking() -> LoadedScene {
     loaded
 }
 
-/// A sky stands in for missing light as at the time that is shown, as for a render.
+/// Checks that a sky stands in for missing light at the time that is shown, as for a render.
 #[test]
 fn the_sky_comes_and_goes_as_in_renders() {
     let mut backend = open(&VALIDATED).expect("a device");
@@ -335,8 +336,8 @@ fn exact_systems_have_no_difference_and_work_is_counted() {
     }
 }
 
-/// A stack of clear sheets before the eye, two more than a ray may pass: the picture says how many rays were
-/// cut.
+/// Checks a stack of clear sheets before the eye, two more than a ray may pass: the picture tells how many
+/// rays were cut.
 #[test]
 fn cut_rays_are_told_when_refinement_has_ended() {
     let folder = tempfile::tempdir().expect("a folder");
@@ -372,7 +373,7 @@ fn a_failure_is_told_and_the_next_settings_go_on() {
     let worker = Worker::start(
         move || engine(&bad),
         move |update| {
-            // The test may have failed meanwhile.
+            // The receiver may be gone, if the test has failed.
             _ = sender.send(update);
         },
     )

@@ -19,10 +19,10 @@ use crate::{
     rendered_with, settings, source_of, system,
 };
 
-/// Advice of whoever opens scenes where one cannot be opened.
+/// Advice of the opening function for a scene that cannot be opened.
 const HELP: &str = "name another file";
 
-/// State that a session of a scene begins with, with the settings of these tests.
+/// Opens a scene, and returns the state that its session begins with, with the settings of these tests.
 fn opened(scene: &OsStr) -> Result<Opened, Failure> {
     let loaded =
         load(scene).map_err(|error| Failure { message: error.to_string(), help: HELP.to_owned() })?;
@@ -43,7 +43,7 @@ fn opened(scene: &OsStr) -> Result<Opened, Failure> {
     Ok(Opened { opening, source: source_of(loaded) })
 }
 
-/// A viewer as a window has it, with its clock.
+/// Viewer that runs as in a window, with its clock.
 struct Running {
     viewer: Viewer,
     woken: Receiver<()>,
@@ -59,7 +59,7 @@ impl Running {
             Session::new(opening, Failure::without_help),
             move || engine_for(source, &first),
             Arc::new(opened),
-            // The test may have failed meanwhile.
+            // The receiver may be gone, if the test has failed.
             move || _ = sender.send(()),
         );
         Self { viewer: viewer.expect("threads"), woken, now: 0.0 }
@@ -69,7 +69,7 @@ impl Running {
         &mut self.viewer.session
     }
 
-    /// Runs as the window does, until something is so.
+    /// Runs as the window does, until `is_so` holds.
     fn until(&mut self, what: &str, is_so: impl Fn(&Session) -> bool) {
         for _ in 0..10_000 {
             self.viewer.take_updates(self.now);
@@ -78,13 +78,13 @@ impl Running {
                 return;
             }
             self.now += 0.1;
-            // Changes by the clock alone wake nobody.
+            // Changes by the clock alone wake nobody, so the wait is limited.
             _ = self.woken.recv_timeout(Duration::from_millis(100));
         }
         panic!("{what}: {:?}", self.viewer.session.failure());
     }
 
-    /// Until the picture is whole.
+    /// Runs until the picture is complete.
     fn finish(&mut self) -> &Picture {
         self.until("a whole picture", |session| {
             session.picture.as_ref().is_some_and(|picture| picture.is_finished())
@@ -155,7 +155,7 @@ fn what_is_picked_is_what_exact_systems_agree_on() {
             }
         }
         assert_eq!(picked.answers.len(), SYSTEMS.len());
-        // The point lies on the ray through that place.
+        // The point lies on the ray through the picked place.
         let seen = picked.pick.camera.world_from_camera.inverse().transform_point3(own.point);
         let [half_width, half_height] = picked.pick.camera.half_extents(33, 20);
         let share = [0.5 - 0.5 * seen.x / seen.z / half_width, 0.5 + 0.5 * seen.y / seen.z / half_height];
@@ -192,7 +192,7 @@ fn cameras_of_the_scene_are_looked_through() {
     assert!(error.to_string().contains("no camera 2"), "{error}");
 }
 
-/// Settings that change before every step, as those of a scene that plays on a slow device.
+/// Checks settings that change before every step, like those of a scene that plays on a slow device.
 #[test]
 fn pictures_come_however_often_settings_change() {
     let mut settings = settings();
@@ -211,7 +211,7 @@ fn pictures_come_however_often_settings_change() {
     assert_eq!(pictures, 4);
 }
 
-/// Mean absolute error of values as they are shown.
+/// Returns the mean absolute error of values as they are shown.
 fn error_as_shown(picture: &[[f32; 3]], truth: &[[f32; 3]]) -> f64 {
     let bytes = |picture: &[[f32; 3]]| Pixels::Radiance(picture.to_vec()).bytes(0.0);
     let (picture, truth) = (bytes(picture), bytes(truth));
@@ -219,8 +219,8 @@ fn error_as_shown(picture: &[[f32; 3]], truth: &[[f32; 3]]) -> f64 {
     apart.sum::<f64>() / truth.len() as f64
 }
 
-/// Against converged direct light: a preview has half of the sides, and is far nearer to it than the sample
-/// it is made of.
+/// Compares with converged direct light: a preview has half of the sides, and is much nearer to that light
+/// than the sample it is made of.
 #[test]
 fn a_preview_can_be_read() {
     let mut backend = open(&VALIDATED).expect("a device");
