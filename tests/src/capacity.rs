@@ -1,4 +1,4 @@
-//! Builds in pools of every edge capacity.
+//! Tests of builds in pools of every edge capacity.
 
 use rasray_ads::kit::VARYING_SHARE;
 use rasray_ads::{Check, Hit, Ray, Sizes, Structure, Viewpoint};
@@ -7,31 +7,32 @@ use rasray_tracer::build_until_complete;
 
 use crate::harness::Bench;
 
-/// A count of a build, and the pool that has capacity for so many.
+/// Count of a build, and the pool whose capacity must be that count.
 #[derive(Clone, Copy, Debug)]
 pub struct Counted {
-    /// Its name in the status of a build.
+    /// Name of the count in the status of a build.
     pub demand: &'static str,
-    /// The name of the pool that grows with it.
+    /// Name of the pool that grows with the count.
     pub pool: &'static str,
-    /// True for pages, of which builds differ a little: the number of begun pages depends on which threads
-    /// collide.
+    /// True for a count of pages, which differs a little between builds: the number of begun pages depends on
+    /// the threads that collide.
     pub pages: bool,
 }
 
-/// The share of pages by which builds of larger scenes may differ on any device.
+/// Divisor of the pages that gives the difference allowed between builds of larger scenes, on any device.
 const SPREAD_OF_PAGES: u64 = 64;
 
-/// Largest difference between the demands of two builds in pages: the number of begun pages depends on which
-/// threads collide. On a processor so few run at a time that small scenes have the same pages in every build.
+/// Returns the largest difference between the demands of two builds in pages: the number of begun pages
+/// depends on the threads that collide. On a processor so few threads run at a time that small scenes have
+/// equal pages in every build.
 pub fn spread_of_pages(device: &Device, demand: u64) -> u64 {
     if device.is_software() { 0 } else { demand / 4 }
 }
 
-/// Builds in pools that have just grown: once, or, where demands `vary`, until they have grown enough.
+/// Builds in pools that have just grown: once or, if demands `vary`, until the pools have grown enough.
 ///
 /// # Panics
-/// If the device fails, or the build is not complete then.
+/// If the device fails, or the build is not complete afterwards.
 pub fn complete_grown(bench: &Bench, structure: &mut dyn Structure, viewpoint: Viewpoint, vary: bool) {
     if vary {
         build_until_complete(bench.device(), structure, viewpoint, Timing::None)
@@ -42,7 +43,7 @@ pub fn complete_grown(bench: &Bench, structure: &mut dyn Structure, viewpoint: V
     }
 }
 
-/// As [`check_capacities`], for what is counted in a pool of scratch, seen from the origin: answers are hits.
+/// Checks as [`check_capacities`] a count whose pool is scratch, seen from the origin; the answers are hits.
 ///
 /// # Panics
 /// As [`check_capacities`], or if no ray hits anything.
@@ -62,13 +63,13 @@ pub fn check_capacities_of(
     check_capacities(bench, structure, [0.0; 3].into(), counted, sizes, hits)
 }
 
-/// Builds a structure in capacity for none, one, half, all but one and all of what is counted, `sizes` being
-/// its pools with capacity for that many. What has no capacity is counted and grown, no build is complete
-/// until it has, and its demand is enough; the answers of complete builds are those of one in ample capacity.
-/// Returns how many there are, which is more than ten.
+/// Builds a structure with capacity for none, one, half, all but one and all of the counted entries; `sizes`
+/// are its pools with capacity for that many. Entries without capacity are counted, and the pool grows by the
+/// count; no build is complete before that, and the count is enough. The answers of complete builds are those
+/// of a build in ample capacity. Returns the number of answers, which is more than ten.
 ///
 /// # Panics
-/// If the device fails, or any of that does not hold.
+/// If the device fails, or any of these conditions does not hold.
 pub fn check_capacities<T: PartialEq>(
     bench: &Bench,
     structure: &mut dyn Structure,
@@ -99,11 +100,11 @@ pub fn check_capacities<T: PartialEq>(
             continue;
         };
         assert!(found > capacity && answers.is_none(), "capacity for {capacity}: incomplete with {found}");
-        // Pages come with a little more capacity.
+        // Pools of pages get a little more capacity than the count.
         let more = if counted.pages { found / VARYING_SHARE } else { 0 };
         let enough = sizes(found + more).elements(counted.pool);
         assert_eq!(grown.elements(counted.pool), enough, "capacity for {capacity}");
-        // Pools that are counted later, or others, may have to grow then.
+        // Pools that are counted later, or other pools, may have to grow afterwards.
         let answers = (0..4).find_map(|_| {
             let (check, _, answers) = built(structure, &grown);
             if let Check::Grow(more) = check {

@@ -1,4 +1,5 @@
-//! A device shared by the tests of one binary, geometry from plain triangles, and traces of both sides.
+//! Harness: a device shared by the tests of one binary, geometry from plain triangles, and traces of both
+//! sides.
 
 use std::collections::BTreeSet;
 use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
@@ -13,7 +14,7 @@ use rasray_reference::oracle;
 use rasray_systems::Spec;
 use rasray_tracer::{BatchTracer, TraceOutcome, build_until_complete};
 
-/// A device with the validation layer watching. Dropping it fails the test if the layer said anything.
+/// Device with an active validation layer. Dropping the bench fails the test if the layer reported anything.
 pub struct Bench {
     device: Device,
     /// Processor time of this process when the test began, seconds.
@@ -21,11 +22,11 @@ pub struct Bench {
     _turn: MutexGuard<'static, ()>,
 }
 
-/// Enough for every preset of every system: tests make the same structures again and again, and compiling
-/// their shaders is most of what they wait for.
+/// Number of pipelines kept, enough for every preset of every system: tests make the same structures again
+/// and again, and most of their time is spent compiling shaders.
 const KEPT_PIPELINES: usize = 512;
 
-/// Features that any test may use.
+/// Returns the features that any test may use.
 pub fn requirements() -> Requirements {
     let mut requirements = Requirements::floor();
     requirements.required.push(Feature::FragmentStoresAndAtomics);
@@ -37,7 +38,7 @@ pub fn requirements() -> Requirements {
     requirements
 }
 
-/// The device of the tests of one binary.
+/// Returns the device of the tests of one binary.
 fn shared_device() -> &'static Device {
     static DEVICE: OnceLock<Device> = OnceLock::new();
     DEVICE.get_or_init(|| {
@@ -48,8 +49,8 @@ fn shared_device() -> &'static Device {
     })
 }
 
-/// True if the device of the tests can have a structure. Where it cannot, that is said once, as a test that
-/// is skipped.
+/// True if the device of the tests can have a structure. If it cannot, this is reported once, like a skipped
+/// test.
 ///
 /// # Panics
 /// If there is no suitable device, or an option has an impossible value.
@@ -67,7 +68,7 @@ pub fn is_offered(spec: &Spec) -> bool {
 }
 
 impl Bench {
-    /// Takes the device; tests of one binary take turns, so that a message belongs to one of them.
+    /// Takes the device; tests of one binary take turns, so that each message belongs to one of them.
     ///
     /// # Panics
     /// If there is no suitable device or no validation layer.
@@ -77,7 +78,7 @@ impl Bench {
         Self { device: shared_device().clone(), begun: processor_seconds(), _turn: turn }
     }
 
-    /// The device.
+    /// Returns the device.
     pub fn device(&self) -> &Device {
         &self.device
     }
@@ -90,7 +91,7 @@ impl Bench {
         self.geometry_of_draws(&[triangles])
     }
 
-    /// Posed triangles of several draws, at least one.
+    /// Uploads posed triangles of several draws, at least one.
     ///
     /// # Panics
     /// If the device fails.
@@ -131,7 +132,7 @@ impl Bench {
         Geometry::new(&self.device, desc).expect("geometry fits")
     }
 
-    /// Builds once, with the pools as they are.
+    /// Builds once, with the pools at their present size.
     ///
     /// # Panics
     /// If the device fails.
@@ -170,7 +171,7 @@ impl Bench {
         tracer.trace(structure, rays, TraceMode::Closest, Timing::None).expect("all rays finish")
     }
 
-    /// Hits of rays, and the surfaces shaded there.
+    /// Returns the hits of rays, and the surfaces shaded there.
     ///
     /// # Panics
     /// If the device fails, or the structure was made without a scene.
@@ -193,7 +194,7 @@ impl Bench {
         hits.into_iter().zip(surfaces).collect()
     }
 
-    /// True for each ray that hits anything, else false.
+    /// Returns true for each ray that hits anything, otherwise false.
     ///
     /// # Panics
     /// If the device fails or rays do not finish.
@@ -224,8 +225,8 @@ impl Drop for Bench {
     }
 }
 
-/// Processor time of all threads of this process so far, in seconds; absent where the system does not tell it
-/// in `/proc`. Tests take turns, so what passes between two calls within a turn is that test's.
+/// Returns the processor time of all threads of this process so far, in seconds; `None` where the system does
+/// not have it in `/proc`. Tests take turns, so the time between two calls within a turn belongs to one test.
 pub fn processor_seconds() -> Option<f64> {
     // Ticks of user and system time are fields 14 and 15; the name before them may hold spaces. Linux counts
     // 100 a second.
@@ -235,19 +236,19 @@ pub fn processor_seconds() -> Option<f64> {
     Some((ticks(14)? + ticks(15)?) / 100.0)
 }
 
-/// All bits of a hit, so that equal means equal in every one of them.
+/// Returns all bits of a hit, so that equality covers every one of them.
 pub fn bits(hit: &Hit) -> [u32; 4] {
     [hit.t.to_bits(), hit.primitive, hit.a.to_bits(), hit.b.to_bits()]
 }
 
-/// The bits of a hit that are the same in every build. For fragments without an id, a and b refer to a node,
-/// whose number follows the order of threads.
+/// Returns the bits of a hit that are equal in every build. For fragments without an id, a and b refer to a
+/// node, whose number follows the order of threads.
 pub fn bits_of_any_build(hit: &Hit) -> [u32; 4] {
     let [t, primitive, a, b] = bits(hit);
     if primitive == PRIMITIVE_UNKNOWN { [t, primitive, 0, 0] } else { [t, primitive, a, b] }
 }
 
-/// An oracle over the same triangles.
+/// Makes an oracle over the triangles.
 pub fn oracle_of(triangles: &[[[f32; 3]; 3]]) -> oracle::Oracle<'static> {
     let positions: Vec<[f32; 3]> = triangles.iter().flatten().copied().collect();
     let indices: Vec<u32> = (0..positions.len() as u32).collect();

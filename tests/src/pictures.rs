@@ -1,4 +1,4 @@
-//! Small pictures of built-in scenes, through whatever structure.
+//! Small pictures of built-in scenes, through any structure.
 
 use rasray_ads::{Ray, Structure};
 use rasray_gpu::Timing;
@@ -9,7 +9,7 @@ use rasray_scene::{Scene, builtin::builtin};
 use crate::harness::Bench;
 use crate::random::Random;
 
-/// A built-in scene on the device, seen by its first camera in `size` x `size` pixels.
+/// Uploads a built-in scene, seen by its first camera in `size` x `size` pixels.
 ///
 /// # Panics
 /// If there is no such scene or the device refuses it.
@@ -17,7 +17,7 @@ pub fn stage(bench: &Bench, name: &str, size: u32) -> GpuScene {
     staged(bench, &builtin(name).expect("it is built in").expect("it needs no parameters"), size)
 }
 
-/// [`stage`] for any scene that has a camera.
+/// Uploads as [`stage`] any scene that has a camera.
 ///
 /// # Panics
 /// If it has none or the device refuses it.
@@ -29,7 +29,7 @@ pub fn staged(bench: &Bench, scene: &Scene, size: u32) -> GpuScene {
     GpuScene::upload(bench.device(), &tables, &view).expect("the scene fits")
 }
 
-/// Rays from anywhere well within a scene to anywhere.
+/// Makes rays from points well within a scene in any direction.
 pub fn rays_inside(scene: &GpuScene, count: usize) -> Vec<Ray> {
     let [lower, upper] = scene.geometry().bounds();
     let mut random = Random::new(0x7061_796C);
@@ -41,7 +41,7 @@ pub fn rays_inside(scene: &GpuScene, count: usize) -> Vec<Ray> {
     origins.into_iter().map(|origin| Ray::new(origin, random.direction())).collect()
 }
 
-/// The pixels of `samples` paths each.
+/// Renders pixels of `samples` paths each.
 ///
 /// # Panics
 /// If the device fails.
@@ -55,7 +55,7 @@ pub fn rendered(
     rendered_through(bench, integrator, film, samples, (&*structure).into())
 }
 
-/// [`rendered`] through more than a structure.
+/// Renders as [`rendered`] with passes in addition to a structure.
 ///
 /// # Panics
 /// If the device fails.

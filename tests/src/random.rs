@@ -1,54 +1,54 @@
-//! Numbers for tests: the same on every machine.
+//! Random numbers for tests, equal on every machine.
 
 use rasray_ads::Ray;
 use rasray_hard_cases::Stream;
 
 use crate::shapes::Triangle;
 
-/// The generator of the hard cases, started from a seed alone.
+/// Generator of the hard cases, started from a seed alone.
 #[derive(Clone, Debug)]
 pub struct Random {
     stream: Stream,
 }
 
 impl Random {
-    /// A stream of numbers.
+    /// Starts a stream of numbers.
     pub fn new(seed: u64) -> Self {
         Self { stream: Stream::of_seed(seed) }
     }
 
-    /// 64 random bits.
+    /// Returns 64 random bits.
     pub fn bits(&mut self) -> u64 {
         self.stream.bits()
     }
 
-    /// In [low, high).
+    /// Returns a number in [low, high).
     pub fn between(&mut self, low: f32, high: f32) -> f32 {
         let unit = (self.bits() >> 40) as f32 / (1u64 << 24) as f32;
         low + (high - low) * unit
     }
 
-    /// A point in a box.
+    /// Returns a point in a box.
     pub fn point(&mut self, low: f32, high: f32) -> [f32; 3] {
         [self.between(low, high), self.between(low, high), self.between(low, high)]
     }
 
-    /// A point within bounds.
+    /// Returns a point within bounds.
     pub fn within(&mut self, [lower, upper]: [[f32; 3]; 2]) -> [f32; 3] {
         std::array::from_fn(|axis| self.between(lower[axis], upper[axis]))
     }
 
-    /// A point no farther from another than `reach` along an axis.
+    /// Returns a point no farther from another than `reach` along an axis.
     pub fn near(&mut self, middle: [f32; 3], reach: f32) -> [f32; 3] {
         middle.map(|x| x + self.between(-reach, reach))
     }
 
-    /// A triangle whose corners are [`near`](Self::near) a point.
+    /// Returns a triangle whose corners are [`near`](Self::near) a point.
     pub fn triangle(&mut self, middle: [f32; 3], reach: f32) -> Triangle {
         [(); 3].map(|()| self.near(middle, reach))
     }
 
-    /// Weights of a point of a triangle.
+    /// Returns the weights of a point of a triangle.
     pub fn weights(&mut self) -> [f32; 3] {
         let (mut u, mut v) = (self.between(0.0, 1.0), self.between(0.0, 1.0));
         if u + v > 1.0 {
@@ -57,7 +57,7 @@ impl Random {
         [1.0 - u - v, u, v]
     }
 
-    /// A unit direction.
+    /// Returns a unit direction.
     pub fn direction(&mut self) -> [f32; 3] {
         loop {
             let p = self.point(-1.0, 1.0);
@@ -69,17 +69,17 @@ impl Random {
         }
     }
 
-    /// A ray from a point in a box in any direction.
+    /// Returns a ray from a point in a box in any direction.
     pub fn ray(&mut self, low: f32, high: f32) -> Ray {
         Ray::new(self.point(low, high), self.direction())
     }
 
-    /// Rays from points in a box in any direction.
+    /// Returns rays from points in a box in any direction.
     pub fn rays(&mut self, count: usize, low: f32, high: f32) -> Vec<Ray> {
         (0..count).map(|_| self.ray(low, high)).collect()
     }
 
-    /// The numbers from 0 to `count` - 1 in an order of chance.
+    /// Returns the numbers from 0 to `count` - 1 in random order.
     pub fn shuffled(&mut self, count: usize) -> Vec<usize> {
         let mut order: Vec<usize> = (0..count).collect();
         for last in (1..count).rev() {

@@ -4,22 +4,22 @@ use rasray_ads::Ray;
 
 use crate::random::Random;
 
-/// A ray from one point to another, which it reaches at t = 1.
+/// Makes a ray from one point to another, which it reaches at t = 1.
 pub fn towards(origin: [f32; 3], target: [f32; 3]) -> Ray {
     Ray::new(origin, std::array::from_fn(|axis| target[axis] - origin[axis]))
 }
 
-/// A ray that ends where it reaches the other point.
+/// Makes a ray from one point to another that ends there.
 pub fn segment(origin: [f32; 3], target: [f32; 3]) -> Ray {
     Ray { t_max: 1.0, ..towards(origin, target) }
 }
 
-/// Rays of all directions from close to the eye in the origin.
+/// Makes rays of all directions from near the eye in the origin.
 pub fn around_the_eye() -> Vec<Ray> {
     Random::new(3).rays(500, -0.5, 0.5)
 }
 
-/// The direction of an axis: x, y, z, then their opposites, again and again.
+/// Returns the direction of an axis: x, y, z, then their opposites, again and again.
 pub fn along_axis(number: usize) -> [f32; 3] {
     let mut direction = [0.0; 3];
     direction[number % 3] = if (number / 3).is_multiple_of(2) { 1.0 } else { -1.0 };

@@ -3,16 +3,16 @@
 use crate::hard_cases::{self, Scale};
 use crate::random::Random;
 
-/// A triangle.
+/// Corners of a triangle.
 pub type Triangle = [[f32; 3]; 3];
 
-/// A rectangle across z.
+/// Makes a rectangle perpendicular to z.
 pub fn quad(x: [f32; 2], y: [f32; 2], z: f32) -> [Triangle; 2] {
     let corner = |i: usize, j: usize| [x[i], y[j], z];
     [[corner(0, 0), corner(1, 0), corner(1, 1)], [corner(0, 0), corner(1, 1), corner(0, 1)]]
 }
 
-/// The closed box between two corners: 12 triangles.
+/// Makes the closed box between two corners: 12 triangles.
 pub fn closed_box(low: [f32; 3], high: [f32; 3]) -> Vec<Triangle> {
     let corner =
         |i: usize| std::array::from_fn(|axis| if i >> axis & 1 == 0 { low[axis] } else { high[axis] });
@@ -20,7 +20,7 @@ pub fn closed_box(low: [f32; 3], high: [f32; 3]) -> Vec<Triangle> {
     quads.iter().flat_map(|q| [[q[0], q[1], q[2]], [q[0], q[2], q[3]]]).map(|t| t.map(corner)).collect()
 }
 
-/// A sphere of rows and columns of quads, closed, with shared vertices bit-equal.
+/// Makes a closed sphere of rows and columns of quads, with shared vertices equal in every bit.
 pub fn sphere(center: [f32; 3], radius: f32, rows: usize) -> Vec<Triangle> {
     let columns = 2 * rows;
     let vertex = |row: usize, column: usize| {
@@ -46,7 +46,7 @@ pub fn sphere(center: [f32; 3], radius: f32, rows: usize) -> Vec<Triangle> {
     triangles
 }
 
-/// Lower and upper corner of the bounds of triangles.
+/// Returns the lower and upper corner of the bounds of triangles.
 pub fn bounds(triangles: &[Triangle]) -> [[f32; 3]; 2] {
     let corners = || triangles.as_flattened();
     let lower = std::array::from_fn(|axis| corners().iter().fold(f32::MAX, |m, p| m.min(p[axis])));
@@ -54,22 +54,22 @@ pub fn bounds(triangles: &[Triangle]) -> [[f32; 3]; 2] {
     [lower, upper]
 }
 
-/// Scattered layers within 10 of the origin.
+/// Makes scattered layers within 10 of the origin.
 pub fn layers() -> Vec<Triangle> {
     hard_cases::case("C4", Scale::QUICK).expect("the case exists").triangles
 }
 
-/// Those, and a room around them between two corners.
+/// Makes [`layers`] and a room around them between two corners.
 pub fn layers_in_a_room(low: [f32; 3], high: [f32; 3]) -> Vec<Triangle> {
     let mut triangles = layers();
     triangles.extend(closed_box(low, high));
     triangles
 }
 
-/// Triangles around the origin in [`layers_around_the_eye`].
+/// Number of triangles around the origin in [`layers_around_the_eye`].
 pub const NEAR_TRIANGLES: u64 = 5;
 
-/// Layers, a room, and triangles around the eye in the origin for the near-region list.
+/// Makes layers, a room, and triangles around the eye in the origin for the near-region list.
 pub fn layers_around_the_eye() -> Vec<Triangle> {
     let mut triangles = layers_in_a_room([-10.0; 3], [10.0; 3]);
     for k in 0..NEAR_TRIANGLES {
@@ -79,7 +79,7 @@ pub fn layers_around_the_eye() -> Vec<Triangle> {
     triangles
 }
 
-/// Layers, a sphere of that many rows, and a room around them.
+/// Makes layers, a sphere of that many rows, and a room around them.
 pub fn layers_and_sphere(rows: usize) -> Vec<Triangle> {
     let mut triangles = layers();
     triangles.extend(sphere([-3.0, 0.5, -2.0], 1.5, rows));
@@ -87,21 +87,21 @@ pub fn layers_and_sphere(rows: usize) -> Vec<Triangle> {
     triangles
 }
 
-/// These triangles with every third of them once more.
+/// Adds every third of these triangles once more.
 pub fn with_twins(mut triangles: Vec<Triangle>) -> Vec<Triangle> {
     triangles.extend(triangles.clone().into_iter().step_by(3));
     triangles
 }
 
-/// A sphere in a room of 8 metres.
+/// Makes a sphere in a room of 8 metres.
 pub fn ball_in_a_room() -> Vec<Triangle> {
     let mut triangles = closed_box([-4.0; 3], [4.0; 3]);
     triangles.extend(sphere([1.0, 0.5, -1.5], 0.75, 24));
     triangles
 }
 
-/// Triangles of all sizes within 10 of the origin: scattered layers, spheres of small and of tiny triangles,
-/// slivers that are long and thin and often pass close to the eye, and a room around them.
+/// Makes triangles of all sizes within 10 of the origin: scattered layers, spheres of small and of tiny
+/// triangles, slivers that are long and thin and often pass close to the eye, and a room around them.
 pub fn all_sizes() -> Vec<Triangle> {
     let mut triangles = layers();
     triangles.extend(sphere([-3.0, 0.5, -2.0], 1.5, 10));
@@ -115,8 +115,8 @@ pub fn all_sizes() -> Vec<Triangle> {
     triangles
 }
 
-/// Needles of any direction within 12 of the origin, so thin that rounding turns the planes of many, and a
-/// few as wide as cells.
+/// Makes needles of any direction within 12 of the origin, so thin that rounding turns the planes of many,
+/// and a few as wide as cells.
 pub fn needles() -> Vec<Triangle> {
     let mut random = Random::new(77);
     (0..400)

@@ -14,21 +14,21 @@ pub fn is_full() -> bool {
     std::env::var_os("RASRAY_FULL").is_some_and(|value| value == "1")
 }
 
-/// All of them in the full tier; in the quick one one of them, by `turn`: where one option changes in an
-/// outer loop and others in an inner one, every value is tried, but not with every other. Each is a kernel of
-/// its own, which a driver on the processor compiles for seconds.
+/// Returns all values in the full tier, and one of them in the quick tier, chosen by `turn`: if one option
+/// changes in an outer loop and another in an inner one, every value is tested, but not with every other.
+/// Each value is a kernel of its own, which a driver on the processor compiles for seconds.
 pub fn in_turn<T>(all: &[T], turn: usize) -> &[T] {
     let place = turn % all.len();
     if is_full() { all } else { &all[place..=place] }
 }
 
-/// All of them in the full tier, the first ones in the quick one.
+/// Returns all values in the full tier, the first ones in the quick tier.
 pub fn first<T>(all: &[T], quick: usize) -> &[T] {
     if is_full() { all } else { &all[..quick] }
 }
 
-/// True if this run tries a pair of two lists, by the places of both: every pair in the full tier, one of
-/// `share` in the quick one. Each place of either list then occurs in some pair, where the other list has
+/// True if this run tests a pair of two lists, given by its places in both: every pair in the full tier, one
+/// of `share` in the quick tier. Each place of either list then occurs in some pair if the other list has
 /// `share` places or more.
 pub fn is_pair(one: usize, other: usize, share: usize) -> bool {
     is_full() || (one + other).is_multiple_of(share)
@@ -37,17 +37,17 @@ pub fn is_pair(one: usize, other: usize, share: usize) -> bool {
 /// Counts by tier and kind of device.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Counts<T> {
-    /// In every run.
+    /// Count in every run.
     pub quick: T,
-    /// In the full tier on a software driver.
+    /// Count in the full tier on a software driver.
     pub software: T,
-    /// In the full tier elsewhere.
+    /// Count in the full tier on other devices.
     pub full: T,
 }
 
 impl<T: Copy + Debug> Counts<T> {
-    /// The count for this run on this device. The full tier prints it with what it counts, since it follows
-    /// the device.
+    /// Returns the count for this run on this device. The full tier prints it with the name of the counted
+    /// things, since the count depends on the device.
     pub fn on(&self, device: &Device, what: &str) -> T {
         let (count, kind) = match (is_full(), device.is_software()) {
             (false, _) => return self.quick,

@@ -1,9 +1,9 @@
-//! Views that cameras have in tests.
+//! Views of cameras in tests.
 
 use rasray_ads::CameraView;
 
-/// A right angle of view along z: exactly the cube's face towards +z, and the rays through its cells' centres
-/// are easily named.
+/// Right angle of view along z: exactly the cube's face towards +z, so that rays through the cells' centres
+/// are easily written.
 pub const ALONG_Z: CameraView = CameraView {
     right: [1.0, 0.0, 0.0],
     up: [0.0, 1.0, 0.0],
@@ -12,7 +12,7 @@ pub const ALONG_Z: CameraView = CameraView {
     half_height: 1.0,
 };
 
-/// Leaning downwards, and wider than high.
+/// View that leans downwards, and is wider than high.
 pub const LEANING: CameraView = CameraView {
     right: [1.0, 0.0, 0.0],
     up: [0.0, 0.8, 0.6],
@@ -21,7 +21,7 @@ pub const LEANING: CameraView = CameraView {
     half_height: 0.5,
 };
 
-/// Turned about all axes, and twice as wide as high.
+/// View that is turned about all axes, and is twice as wide as high.
 pub const TURNED: CameraView = CameraView {
     right: [-1.0 / 3.0, -2.0 / 3.0, 2.0 / 3.0],
     up: [14.0 / 15.0, -1.0 / 3.0, 2.0 / 15.0],

@@ -9,62 +9,62 @@ use rasray_gpu::{BufferDesc, BufferUsage, ComputePipelineDesc, Device, MemoryLoc
 use rasray_shaders_glsl::Shader;
 pub use rasray_shaders_glsl::records::test_kernels::Visit;
 
-/// The face of visits to the near region, `SEGMENT_NEAR` of `ads/march_cube.glsl`.
+/// Number of the face for visits to the near region, `SEGMENT_NEAR` of `ads/march_cube.glsl`.
 pub const FACE_NEAR: u32 = 6;
 
-/// Roundings of single precision that a march may lose along a ray: 64 units of 2^-24.
+/// Rounding of single precision that a march may lose along a ray, relative: 64 units of 2^-24.
 pub const ROUNDING: f64 = 64.0 / (1_u64 << 24) as f64;
 
-/// Largest number that double precision cannot tell from zero, relative.
+/// Largest relative number that double precision cannot tell from zero.
 const EXACT: f64 = 1.0e-13;
 
-/// A part of a ray that lies in one closed cell.
+/// Chord: the part of a ray that lies in one closed cell.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Chord<C> {
-    /// The cell.
+    /// Cell of the chord.
     pub cell: C,
-    /// Entry of the ray.
+    /// Parameter t at which the ray enters.
     pub t_in: f64,
-    /// Exit of the ray; may be infinite.
+    /// Parameter t at which the ray leaves; may be infinite.
     pub t_out: f64,
 }
 
 impl<C> Chord<C> {
-    /// A t within the chord.
+    /// Returns a t within the chord.
     pub fn middle(&self) -> f64 {
         middle(self.t_in, self.t_out)
     }
 }
 
-/// A t between two others, the second of which may be infinite.
+/// Returns a t between two others, the second of which may be infinite.
 pub fn middle(t_in: f64, t_out: f64) -> f64 {
     if t_out.is_finite() { 0.5 * (t_in + t_out) } else { 2.0 * t_in.abs() + 1.0e6 }
 }
 
-/// Face, column, row.
+/// Cell of a face: face, column, row.
 pub type FaceCell = (u32, i32, i32);
 
 fn largest(v: [f64; 3]) -> f64 {
     v.iter().fold(0.0, |far: f64, x| far.max(x.abs()))
 }
 
-/// Lengths in t below this are lost in the rounding of single precision.
+/// Returns the length in t below which parts are lost in the rounding of single precision.
 pub fn unresolved(ray: &Ray, t: f64) -> f64 {
     let size = largest(ray.origin.map(f64::from)) / largest(ray.direction.map(f64::from));
     ROUNDING * (t.abs() + size)
 }
 
-/// Lengths in space below this are lost in the rounding of single precision.
+/// Returns the length in space below which parts are lost in the rounding of single precision.
 pub fn unresolved_length(ray: &Ray, t: f64) -> f64 {
     unresolved(ray, t) * largest(ray.direction.map(f64::from))
 }
 
-/// The point at t in double precision.
+/// Returns the point at t in double precision.
 pub fn point(ray: &Ray, t: f64) -> [f64; 3] {
     std::array::from_fn(|axis| f64::from(ray.origin[axis]) + t * f64::from(ray.direction[axis]))
 }
 
-/// A point as a face sees it: a permutation and a change of sign.
+/// Transforms a point to the coordinates of a face: a permutation and a change of sign.
 pub fn face_from_world(p: [f64; 3], face: u32) -> [f64; 3] {
     let mut q = match face / 2 {
         0 => [p[1], p[2], p[0]],
@@ -77,7 +77,7 @@ pub fn face_from_world(p: [f64; 3], face: u32) -> [f64; 3] {
     q
 }
 
-/// The inverse of [`face_from_world`], in single precision.
+/// Inverts [`face_from_world`], in single precision.
 pub fn world_from_face(q: [f32; 3], face: u32) -> [f32; 3] {
     let z = if face % 2 == 1 { -q[2] } else { q[2] };
     match face / 2 {
@@ -87,22 +87,23 @@ pub fn world_from_face(q: [f32; 3], face: u32) -> [f32; 3] {
     }
 }
 
-/// x/z of the boundary below a cell, the number that `cell_boundary` of `ads/views.glsl` gives.
+/// Returns x/z of the boundary below a cell, the number that `cell_boundary` of `ads/views.glsl` gives.
 pub fn cell_boundary(cell: i32, resolution: u32) -> f32 {
     (2 * cell - resolution as i32) as f32 * (1.0 / resolution as f32)
 }
 
-/// x/z of the centre of a cell, the number that `cell_center` of `ads/views.glsl` gives.
+/// Returns x/z of the centre of a cell, the number that `cell_center` of `ads/views.glsl` gives.
 pub fn cell_center(cell: i32, resolution: u32) -> f32 {
     (2 * cell + 1 - resolution as i32) as f32 * (1.0 / resolution as f32)
 }
 
-/// Half side of the near region that a scene of this radius (rays included) needs: the rule of structures.
+/// Returns half the side of the near region that a scene of this radius (rays included) needs, by the rule of
+/// structures.
 pub fn near_size(resolution: u32, radius: f32) -> f32 {
     4.8e-7 * resolution as f32 * radius
 }
 
-/// The part of [low, high] where `at_zero + t * slope >= 0`; empty if low > high.
+/// Clips [low, high] to the part where `at_zero + t * slope >= 0`; empty if low > high.
 fn clip([low, high]: [f64; 2], at_zero: f64, slope: f64) -> [f64; 2] {
     if slope == 0.0 {
         return if at_zero >= 0.0 { [low, high] } else { [1.0, 0.0] };
@@ -111,7 +112,7 @@ fn clip([low, high]: [f64; 2], at_zero: f64, slope: f64) -> [f64; 2] {
     if slope > 0.0 { [low.max(t), high] } else { [low, high.min(t)] }
 }
 
-/// The parts of a ray outside of the near region and of what rounding adds to it.
+/// Returns the parts of a ray outside the near region and outside the margin that rounding adds to it.
 fn outside_of_near_region(ray: &Ray, size: f64) -> Vec<[f64; 2]> {
     let all = [f64::from(ray.t_min), f64::from(ray.t_max)];
     let mut near = [f64::NEG_INFINITY, f64::INFINITY];
@@ -128,15 +129,16 @@ fn outside_of_near_region(ray: &Ray, size: f64) -> Vec<[f64; 2]> {
     [before, after].into_iter().filter(|[low, high]| low < high).collect()
 }
 
-/// The cells that share a ray point: the one it lies in, and the one beyond a boundary that it lies on.
+/// Returns the cells that share a point of a ray: the one that contains it, and the one beyond a boundary on
+/// which it lies.
 fn cells_at(position: f64, tolerance: f64, boundary: impl Fn(i32) -> f64, guess: i32) -> Vec<i32> {
     (guess - 1..=guess + 1)
         .filter(|&cell| boundary(cell) - position <= tolerance && position - boundary(cell + 1) <= tolerance)
         .collect()
 }
 
-/// All chords of a ray in the cells of the six faces, [`unresolved`] ones left out. The origin is
-/// relative to the eye. Chords are required of a march that promises a superset of the exact cells.
+/// Returns all chords of a ray in the cells of the six faces, without [`unresolved`] ones. The origin is
+/// relative to the eye. A march that promises a superset of the exact cells must visit every chord.
 pub fn exact_face_chords(ray: &Ray, resolution: u32, near_size: f32) -> Vec<Chord<FaceCell>> {
     let side = f64::from(resolution);
     let mut chords = Vec::new();
@@ -144,7 +146,7 @@ pub fn exact_face_chords(ray: &Ray, resolution: u32, near_size: f32) -> Vec<Chor
         for face in 0..6 {
             let o = face_from_world(ray.origin.map(f64::from), face);
             let d = face_from_world(ray.direction.map(f64::from), face);
-            // The pyramid, without what lies within rounding of a seam: there either face will do.
+            // The pyramid excludes everything within rounding of a seam, where either face is right.
             let guard = ROUNDING * largest(o);
             let mut range = part;
             for axis in 0..2 {
@@ -197,7 +199,7 @@ pub fn exact_face_chords(ray: &Ray, resolution: u32, near_size: f32) -> Vec<Chor
     chords
 }
 
-/// All chords of a ray in the cells [i, i + 1] of a cubic grid, [`unresolved`] ones left out.
+/// Returns all chords of a ray in the cells [i, i + 1] of a cubic grid, without [`unresolved`] ones.
 pub fn exact_grid_chords(ray: &Ray, size: u32) -> Vec<Chord<[i32; 3]>> {
     let (o, d) = (ray.origin.map(f64::from), ray.direction.map(f64::from));
     let mut range = [f64::from(ray.t_min), f64::from(ray.t_max)];
@@ -241,7 +243,7 @@ pub fn exact_grid_chords(ray: &Ray, size: u32) -> Vec<Chord<[i32; 3]>> {
     chords
 }
 
-/// True if a visited cell really holds the ray's point at t, up to rounding.
+/// True if a visited cell contains the ray's point at t, up to rounding.
 pub fn visit_holds(visit: &Visit, ray: &Ray, t: f64, resolution: u32, near_size: f32) -> bool {
     let slack = unresolved_length(ray, t);
     let p = point(ray, t);
@@ -256,7 +258,7 @@ pub fn visit_holds(visit: &Visit, ray: &Ray, t: f64, resolution: u32, near_size:
     q[2] >= -slack && between(visit.x, q[0]) && between(visit.y, q[1])
 }
 
-/// Runs a kernel with buffers of input, output and counts, one thread an input, and its push constants.
+/// Runs a kernel with buffers of input, output and counts, one thread per input, and its push constants.
 ///
 /// # Panics
 /// If the device fails.
@@ -310,7 +312,7 @@ pub fn run_kernel<T: Pod, C: Pod>(
     (found, counted.unwrap_or_default())
 }
 
-/// Cuts what threads wrote into runs of `limit`; `None` where a thread had more to write.
+/// Splits the output of threads into runs of `limit`; `None` for a thread that had more to write.
 pub fn runs<T: Clone>(found: &[T], counts: &[u32], limit: usize) -> Vec<Option<Vec<T>>> {
     found
         .chunks(limit)

@@ -1,4 +1,4 @@
-//! Voxels as tests build them.
+//! Voxel structures for tests.
 
 use rasray_ads::Geometry;
 use rasray_gpu::Timing;
@@ -8,17 +8,18 @@ use rasray_voxel::{Config, Contents, Payload, Voxels};
 use crate::harness::Bench;
 use crate::shapes::Triangle;
 
-/// The published rules of Hu et al. with triangles in the fragments: attributes need a scene.
+/// Returns the published rules of Hu et al. with triangles in the fragments, since attributes need a scene.
 pub fn hu(resolution: u32) -> Config {
     Config { payload: Payload::Index, ..Config::published_hu(resolution) }
 }
 
-/// The published rules of Selective reflections with triangles in the fragments: attributes need a scene.
+/// Returns the published rules of Selective reflections with triangles in the fragments, since attributes
+/// need a scene.
 pub fn selective(resolution: u32) -> Config {
     Config { payload: Payload::Index, ..Config::published_selective(resolution) }
 }
 
-/// A structure of these triangles, not built.
+/// Makes a structure of these triangles, without a build.
 ///
 /// # Panics
 /// If the options are not valid, or the device fails.
@@ -27,7 +28,7 @@ pub fn made(bench: &Bench, config: Config, triangles: &[Triangle]) -> Voxels {
     Voxels::new(bench.device(), config, &geometry, None).expect("the options are valid")
 }
 
-/// [`made`], built in as much capacity as it takes.
+/// Makes as [`made`], and builds with as much capacity as needed.
 ///
 /// # Panics
 /// As [`made`], or if it cannot be built.
@@ -35,7 +36,7 @@ pub fn built(bench: &Bench, config: Config, triangles: &[Triangle]) -> Voxels {
     built_of(bench, config, &bench.geometry(triangles))
 }
 
-/// [`built`] of a geometry that was uploaded.
+/// Makes and builds as [`built`] for a geometry that was uploaded.
 ///
 /// # Panics
 /// As [`built`].
@@ -46,7 +47,7 @@ pub fn built_of(bench: &Bench, config: Config, geometry: &Geometry) -> Voxels {
     structure
 }
 
-/// Contents of a structure.
+/// Reads the contents of a structure.
 ///
 /// # Panics
 /// If the device fails.

@@ -22,7 +22,7 @@ const NEIGHBOURS: &str =
 const NEEDLE: &str = "inside of a needle a thousandth thick, nearly all of which is seen edge-on";
 const DUST: &str = "triangles far smaller than cells: those without a cell's centre are lost";
 
-/// Cases whose errors fall with the size of a cell as others do, from a higher start.
+/// Laws of cases whose errors fall with the size of a cell like those of others, but from a higher start.
 pub(super) const CENTRES_LAWS: &[Law] = &[
     line("G11", "part of it is seen at grazing angles, where its border is wide", 18.0),
     line("E2-far", COARSE, 5.0),
@@ -52,10 +52,10 @@ pub(super) const CENTRES_LAWS: &[Law] = &[
     line("P7", "rays that leave a surface at grazing angles hit the cells next to their own", 16.0),
 ];
 
-/// Planes in 16 x 16 cells per face.
+/// Deviations of planes in 16 x 16 cells per face.
 pub(super) const CENTRES_16: &[Deviation] = &[deviation("Z6-pixel", THIN, 0.99, 1.0)];
 
-/// Planes in 64 x 64 cells per face.
+/// Deviations of planes in 64 x 64 cells per face.
 pub(super) const CENTRES_64: &[Deviation] = &[
     deviation("G1", THIN, 0.699, 1.0),
     deviation("G2", THIN, 0.99, 1.0),
@@ -72,10 +72,11 @@ pub(super) const CENTRES_64: &[Deviation] = &[
     deviation("T2", NEEDLE, 0.524, 0.826),
 ];
 
-/// Planes with lost triangles and those seen edge-on in conservative lists, in 64 x 64 cells per face.
+/// Deviations of planes with lost triangles and those seen edge-on in conservative lists, in 64 x 64 cells
+/// per face.
 pub(super) const EDGE_ON_64: &[Deviation] = &[deviation("V16", THIN, 0.39, 0.63)];
 
-/// Planes that fragments carry themselves, in 64 x 64 cells per face.
+/// Deviations of planes that fragments carry themselves, in 64 x 64 cells per face.
 pub(super) const PLANES_64: &[Deviation] = &[
     deviation("G1", THIN, 0.699, 1.0),
     deviation("G2", THIN, 0.99, 1.0),
@@ -95,7 +96,7 @@ pub(super) const PLANES_64: &[Deviation] = &[
     deviation("P7", NEIGHBOURS, 0.55, 0.9),
 ];
 
-/// Planes in 64 x 64 cells of the view of a camera that looks away from the axes.
+/// Deviations of planes in 64 x 64 cells of the view of a camera that looks away from the axes.
 pub(super) const CAMERA_64: &[Deviation] = &[
     deviation("G1", THIN, 0.69, 1.0),
     deviation("G2", THIN, 0.99, 1.0),
@@ -117,7 +118,8 @@ pub(super) const CAMERA_64: &[Deviation] = &[
     deviation("T2", NEEDLE, 0.69, 1.0),
 ];
 
-/// Planes in 64 x 64 cells of a cube's faces, and twice as many along a side of that camera's view.
+/// Deviations of planes in 64 x 64 cells of a cube's faces, and twice as many along a side of that camera's
+/// view.
 pub(super) const CUBE_CAMERA_64: &[Deviation] = &[
     deviation("G1", THIN, 0.69, 1.0),
     deviation("G2", THIN, 0.99, 1.0),
@@ -134,7 +136,7 @@ pub(super) const CUBE_CAMERA_64: &[Deviation] = &[
     deviation("T2", NEEDLE, 0.5, 0.85),
 ];
 
-/// Planes in 128 x 128 cells per face.
+/// Deviations of planes in 128 x 128 cells per face.
 pub(super) const CENTRES_128: &[Deviation] = &[
     deviation("G1", THIN, 0.699, 1.0),
     deviation("G2", THIN, 0.99, 1.0),
@@ -152,7 +154,7 @@ pub(super) const CENTRES_128: &[Deviation] = &[
     deviation("C3-random", DUST, 0.007, 0.011),
 ];
 
-/// Planes in 256 x 256 cells per face.
+/// Deviations of planes in 256 x 256 cells per face.
 pub(super) const CENTRES_256: &[Deviation] = &[
     deviation("G1", THIN, 0.695, 1.0),
     deviation("G2", THIN, 0.99, 1.0),
@@ -168,11 +170,11 @@ pub(super) const CENTRES_256: &[Deviation] = &[
     deviation("C3-random", DUST, 0.008, 0.012),
 ];
 
-/// Samples in 16 x 16 cells per face.
+/// Deviations of samples in 16 x 16 cells per face.
 pub(super) const PUBLISHED_16: &[Deviation] =
     &[deviation("Z6-pixel", THIN, 0.99, 1.0), deviation("Z7", THICK, 0.286, 0.446)];
 
-/// Samples in 128 x 128 cells per face.
+/// Deviations of samples in 128 x 128 cells per face.
 pub(super) const PUBLISHED_128: &[Deviation] = &[
     deviation("G1", THIN, 0.699, 1.0),
     deviation("G2", THIN, 0.99, 1.0),
@@ -256,12 +258,12 @@ pub(super) const fn deviation(
     Deviation { case, reason, at_least_rate, at_most_rate }
 }
 
-/// Errors at a border, which a ray may hit or not.
+/// Makes a law of errors at one border, which a ray hits or misses.
 pub(super) const fn line(case: &'static str, reason: &'static str, per_cell: f64) -> Law {
     Law { case, reason, per_cell, curve: Curve::Line }
 }
 
-/// Errors at many borders, each of which may spoil a ray.
+/// Makes a law of errors at many borders, each of which may spoil a ray.
 pub(super) const fn chances(case: &'static str, reason: &'static str, per_cell: f64) -> Law {
     Law { case, reason, per_cell, curve: Curve::Chances }
 }

@@ -1,5 +1,5 @@
-//! Rays that rounding decides, aimed at edges, corners and seams: where structures that may answer some rays
-//! wrongly do so more often than elsewhere.
+//! Deviations for ambiguous rays, which rounding decides and which are aimed at edges, corners and seams:
+//! structures that may answer some rays wrongly answer these rays wrongly more often than others.
 
 use super::Deviation;
 use super::deviations::deviation;
@@ -12,14 +12,15 @@ const SNAPPED: &str =
     "rays along seams of the cube's faces, and through its corners, are searched in no view there";
 const PASSED: &str = "a hit on the edge between two tiles counts in neither where one is skipped";
 
-/// The share of inadmissible answers to ambiguous rays may be this many times what bounds wrong answers to
-/// others. Where that allows half of them or more, nothing is demanded of ambiguous ones.
+/// Factor between the bound on inadmissible answers to ambiguous rays and the bound on wrong answers to
+/// others. If it allows half of the ambiguous rays or more, nothing is demanded of them.
 const TIMES: f64 = 2.0;
 
-/// Or this, if that is more: few cases aim more than a handful of rays so.
+/// Least bound on the share of inadmissible answers, since few cases have more than a handful of ambiguous
+/// rays.
 const SHARE: f64 = 0.05;
 
-/// By row.
+/// Deviations by the name of the row.
 const DEVIATIONS: &[(&str, Deviation)] = &[
     ("selective-published-128", deviation("V6", AXES, 0.9, 1.0)),
     ("selective-published-128", deviation("G12", AXES, 0.35, 0.53)),
@@ -36,8 +37,8 @@ const DEVIATIONS: &[(&str, Deviation)] = &[
     ("dirt-published-hardware-128", deviation("P6", PASSED, 0.1, 0.16)),
 ];
 
-/// The least and the largest share of ambiguous rays that a row may answer inadmissibly on a case where
-/// `limit` bounds its wrong answers to others, and why.
+/// Returns the least and the largest share of ambiguous rays that a row may answer inadmissibly on a case
+/// where `limit` bounds its wrong answers to other rays, and the reason.
 pub(super) fn bounds(row: &str, case: &str, limit: f64) -> ([f64; 2], &'static str) {
     let excused = DEVIATIONS.iter().find(|(name, deviation)| *name == row && deviation.case == case);
     excused.map_or(([0.0, (TIMES * limit).max(SHARE)], "the bound of other rays, twice"), |(_, deviation)| {

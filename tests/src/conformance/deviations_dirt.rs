@@ -1,4 +1,4 @@
-//! Losses of the published rules of DIRT: rates with the quick meshes, which do not fall with the size of
+//! Losses by the published rules of DIRT: rates with the quick meshes, which do not fall with the size of
 //! tiles.
 
 use super::Deviation;
@@ -9,10 +9,10 @@ const PASSED: &str = "tiles crossed in less than half a pixel are skipped, and a
 const GAPS: &str = "tiles whose centre a triangle does not cover do not list it";
 const THIN: &str = "thinner than a tile, so that no tile's centre is covered";
 
-/// Shares of the rays of a case, unless stated otherwise.
+/// Largest share of the rays of a case that may be lost, unless stated otherwise.
 pub(super) const SHARE: f64 = 0.05;
 
-/// All rules, with every tile listing what reaches into it.
+/// Deviations of all rules, if every tile lists each triangle that reaches into it.
 pub(super) const PUBLISHED: &[Deviation] = &[
     deviation("C5", PASSED, 0.037, 0.058),
     deviation("E2-400-far", PASSED, 0.029, 0.065),
@@ -29,10 +29,10 @@ pub(super) const PUBLISHED: &[Deviation] = &[
     deviation("X9", PASSED, 0.051, 0.079),
 ];
 
-/// All rules in 16 x 16 tiles per face.
+/// Deviations of all rules in 16 x 16 tiles per face.
 pub(super) const PUBLISHED_16: &[Deviation] = &[];
 
-/// All rules with the tiles whose centres the rasterizer covers, of a pixel each.
+/// Deviations of all rules with the tiles whose centres the rasterizer covers, one pixel per tile.
 pub(super) const HARDWARE: &[Deviation] = &[
     deviation("C2", GAPS, 0.064, 0.1),
     deviation("C3", GAPS, 0.431, 0.673),

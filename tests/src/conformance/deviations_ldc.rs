@@ -21,7 +21,7 @@ const NEAR: &str =
     "what lies within a cell and the tolerance of the triangle that a ray leaves is not seen from it";
 const DETAIL: &str = "detail smaller than a cell, most of which covers no cell's centre";
 
-/// Cases whose errors fall with the size of a cell as others do, from a higher start.
+/// Laws of cases whose errors fall with the size of a cell like those of others, but from a higher start.
 pub(super) const PLANES_LAWS: &[Law] = &[
     line("E2", SILHOUETTE, 2.0),
     line("E2-far", COARSE, 12.0),
@@ -43,7 +43,7 @@ pub(super) const PLANES_LAWS: &[Law] = &[
     line("P7", AT_SURFACE, 1.8),
 ];
 
-/// Fragments' own depths in 64 x 64 cells per view.
+/// Deviations of fragments' own depths in 64 x 64 cells per view.
 pub(super) const SLOPE_64: &[Deviation] = &[
     deviation("G11", CENTRE, 0.342, 0.534),
     deviation("G12", CENTRE, 0.069, 0.108),
@@ -66,14 +66,14 @@ pub(super) const SLOPE_64: &[Deviation] = &[
     deviation("T4", CENTRE, 0.047, 0.074),
 ];
 
-/// Tolerance, 16-bit depths and the rasterizer's coverage in 16 x 16 cells per view.
+/// Deviations of tolerance, 16-bit depths and the rasterizer's coverage in 16 x 16 cells per view.
 pub(super) const PUBLISHED_16: &[Deviation] = &[
     deviation("Z6", SHELL, 0.704, 1.0),
     deviation("Z6-pixel", THIN, 0.99, 1.0),
     deviation("Z7", DETAIL, 0.4, 0.626),
 ];
 
-/// As [`PUBLISHED_16`], in 64 x 64 cells per view.
+/// Deviations as [`PUBLISHED_16`], in 64 x 64 cells per view.
 pub(super) const PUBLISHED_64: &[Deviation] = &[
     deviation("G1", THIN, 0.699, 1.0),
     deviation("G2", THIN, 0.99, 1.0),

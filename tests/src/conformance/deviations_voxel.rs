@@ -1,4 +1,4 @@
-//! Voxels with axis A-buffers: laws and deviations of both systems.
+//! Laws and deviations of both systems of voxels with axis A-buffers.
 
 use super::deviations::{chances, deviation, line};
 use super::{Deviation, Law};
@@ -19,7 +19,7 @@ const SEAM: &str =
     "adjacent triangles are kept in different views: at their edge neither may cover a cell's centre";
 const GRAZING: &str = "hit at grazing angles, where borders are wide";
 
-/// Cases whose errors fall with the size of a cell as others do, from a higher start.
+/// Laws of cases whose errors fall with the size of a cell like those of others, but from a higher start.
 pub(super) const LAWS: &[Law] = &[
     line("E2-far", COARSE, 6.2),
     line("E2-400", BORDER, 1.2),
@@ -47,11 +47,11 @@ pub(super) const LAWS: &[Law] = &[
     line("P1", BORDER, 6.5),
 ];
 
-/// Planes in 16 x 16 cells per view.
+/// Deviations of planes in 16 x 16 cells per view.
 pub(super) const CENTRES_16: &[Deviation] =
     &[deviation("Z6-pixel", SMALL, 0.99, 1.0), deviation("Z7", SMALL, 0.4, 0.626)];
 
-/// Planes in 64 x 64 cells per view.
+/// Deviations of planes in 64 x 64 cells per view.
 pub(super) const CENTRES_64: &[Deviation] = &[
     deviation("G1", THIN, 0.699, 1.0),
     deviation("G2", THIN, 0.99, 1.0),
@@ -70,7 +70,7 @@ pub(super) const CENTRES_64: &[Deviation] = &[
     deviation("T2", SMALL, 0.99, 1.0),
 ];
 
-/// Planes in 128 x 128 cells per view.
+/// Deviations of planes in 128 x 128 cells per view.
 pub(super) const CENTRES_128: &[Deviation] = &[
     deviation("G1", THIN, 0.699, 1.0),
     deviation("G2", THIN, 0.99, 1.0),
@@ -90,7 +90,7 @@ pub(super) const CENTRES_128: &[Deviation] = &[
     deviation("T2", SMALL, 0.99, 1.0),
 ];
 
-/// Parities in 16 x 16 cells, all views.
+/// Deviations of parities in 16 x 16 cells, all views.
 pub(super) const HU_16: &[Deviation] = &[
     deviation("C10", EVEN, 0.99, 1.0),
     deviation("Z6", SEVERAL, 0.787, 1.0),
@@ -98,7 +98,7 @@ pub(super) const HU_16: &[Deviation] = &[
     deviation("Z7", SMALL, 0.4, 0.626),
 ];
 
-/// Parities in 128 x 128 cells, all views.
+/// Deviations of parities in 128 x 128 cells, all views.
 pub(super) const HU_128: &[Deviation] = &[
     deviation("V10-24", EDGE, 0.013, 0.033),
     deviation("V10-120", EDGE, 0.012, 0.03),
@@ -160,7 +160,7 @@ pub(super) const HU_128: &[Deviation] = &[
     deviation("P7", LEAVING, 0.4, 0.626),
 ];
 
-/// Parities in 16 x 16 cells, one view per voxel.
+/// Deviations of parities in 16 x 16 cells, one view per voxel.
 pub(super) const SELECTIVE_16: &[Deviation] = &[
     deviation("C10", EVEN, 0.99, 1.0),
     deviation("Z6", SEVERAL, 0.787, 1.0),
@@ -168,7 +168,7 @@ pub(super) const SELECTIVE_16: &[Deviation] = &[
     deviation("Z7", SMALL, 0.4, 0.626),
 ];
 
-/// Parities in 128 x 128 cells, one view per voxel.
+/// Deviations of parities in 128 x 128 cells, one view per voxel.
 pub(super) const SELECTIVE_128: &[Deviation] = &[
     deviation("G1", THIN, 0.699, 1.0),
     deviation("G2", THIN, 0.99, 1.0),
@@ -236,7 +236,7 @@ pub(super) const SELECTIVE_128: &[Deviation] = &[
     deviation("P7", LEAVING, 0.296, 0.464),
 ];
 
-/// The published rules in 128 x 128 cells per view, traversed exactly.
+/// Deviations of the published rules in 128 x 128 cells per view, traversed exactly.
 pub(super) const PARITY_128: &[Deviation] = &[
     deviation("G1", THIN, 0.7, 1.0),
     deviation("G2", THIN, 0.99, 1.0),

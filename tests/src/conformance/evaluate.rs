@@ -3,27 +3,27 @@ use rasray_metrics::Rate;
 use super::{Demand, Measured, Prepared, Row, comparisons, deviations_ambiguous};
 use crate::hard_cases::Target;
 
-/// The probability that any evaluation of any row on any case is wrong although every law and every
-/// deviation holds. Each comparison gets an equal share of it (Bonferroni).
+/// Probability that any evaluation of any row on any case is wrong although every law and every deviation
+/// holds. Each comparison gets an equal share of it (Bonferroni).
 pub const FALSE_ALARM: f64 = 1e-6;
 
-/// Confidence of the interval (Clopper-Pearson) of a measured rate, so that one comparison with one of its
-/// ends is wrong with at most its share of [`FALSE_ALARM`].
+/// Returns the confidence of the interval (Clopper-Pearson) of a measured rate, chosen so that a comparison
+/// with one end of the interval is wrong with at most its share of [`FALSE_ALARM`].
 pub fn confidence() -> f64 {
     1.0 - FALSE_ALARM / comparisons() as f64
 }
 
-/// Faults of a measurement against the row's demand on this case; empty if it has none.
+/// Returns the faults of a measurement against the row's demand on this case; empty if there are none.
 ///
-/// Rates are known up to their interval at [`confidence`]: a limit is broken where all of the interval lies
-/// beyond. Exact rows have no such tolerance: one wrong answer is a fault.
+/// Rates are known up to their interval at [`confidence`]: a limit is broken if the whole interval lies
+/// beyond it. Exact rows have no such tolerance: one wrong answer is a fault.
 pub fn evaluate(row: &Row, prepared: &Prepared, measured: &Measured) -> Vec<String> {
     let mut faults = Vec::new();
     let case = &prepared.case;
     let mut fault = |what: String, ray: Option<usize>| {
         let replay = ray.map_or_else(String::new, |ray| {
             let command = row.replay_command(case.id, case.scale.seed, ray);
-            // A ray depends on the seed and its index, but aims at the meshes of the tier.
+            // A ray depends on the seed and its index, and also aims at the meshes of the tier.
             let meshes = if case.scale.full { " --full" } else { "" };
             format!("\n    replay: {command}{meshes}")
         });
@@ -51,7 +51,7 @@ pub fn evaluate(row: &Row, prepared: &Prepared, measured: &Measured) -> Vec<Stri
         return faults;
     }
     let deviation = row.deviations.iter().find(|deviation| deviation.case == case.id);
-    // Cases all of whose rays are ambiguous are evaluated by these alone, below.
+    // A case whose rays are all ambiguous is evaluated by its ambiguous rays alone, below.
     if !row.is_exact() && measured.errors.total > 0 && measured.inadmissible.total > 0 {
         let limit = deviation.map_or_else(|| row.largest_rate(case.id), |deviation| deviation.at_most_rate);
         let ([least, most], reason) = deviations_ambiguous::bounds(row.name, case.id, limit);

@@ -7,7 +7,7 @@ use rasray_tracer::{TracerError, build_until_complete};
 use super::Prepared;
 use crate::harness::Bench;
 
-/// Builds and traces: what became of each ray, a miss being absent.
+/// Builds and traces, and returns the hit of each ray; a miss is `None`.
 ///
 /// # Panics
 /// If the device fails or rays do not finish.
@@ -15,13 +15,13 @@ pub fn answers(bench: &Bench, structure: &mut dyn Structure, prepared: &Prepared
     try_answers(bench, structure, prepared).expect("the build completes")
 }
 
-/// [`answers`], where the pools may be larger than what the device holds.
+/// Builds and traces as [`answers`], with pools that may be larger than the device can hold.
 ///
 /// # Errors
 /// The build fails.
 ///
 /// # Panics
-/// If the geometry is not taken or rays do not finish.
+/// If the structure does not take the geometry, or rays do not finish.
 pub fn try_answers(
     bench: &Bench,
     structure: &mut dyn Structure,
@@ -33,8 +33,9 @@ pub fn try_answers(
     Ok(device_hits(hits.into_iter().map(|hit| prepared.placed.named(hit))))
 }
 
-/// Builds, traces and compares. `depth_tolerance` is the |dt| / t up to which a depth counts as right
-/// for [`Measured::errors`]; `rounding` is that of [`Measured::rejected`], beyond the oracle's own bounds.
+/// Builds, traces and compares. `depth_tolerance` is the |dt| / t up to which a depth counts as right for
+/// [`Measured::errors`]; `rounding` is the tolerance of [`Measured::rejected`], beyond the oracle's own
+/// bounds.
 ///
 /// # Panics
 /// If the device fails or rays do not finish.
@@ -48,16 +49,16 @@ pub fn measure(
     compare(prepared, &answers(bench, structure, prepared), depth_tolerance, rounding)
 }
 
-/// The first ray that two traces of the same rays answer otherwise, bit for bit.
+/// Returns the index of the first ray whose hits differ in any bit between two traces.
 pub fn first_other(expected: &[Option<DeviceHit>], found: &[Option<DeviceHit>]) -> Option<usize> {
     let bits = |hit: &Option<DeviceHit>| hit.map(|hit| (hit.t.to_bits(), hit.primitive));
     expected.iter().map(bits).zip(found.iter().map(bits)).position(|(expected, found)| expected != found)
 }
 
-/// Compares answers with the truth, as [`measure`] does with a structure's.
+/// Compares answers with the truth, as [`measure`] does for a structure's answers.
 ///
 /// # Panics
-/// If there are not as many answers as rays.
+/// If the number of answers is not that of the rays.
 pub fn compare(
     prepared: &Prepared,
     hits: &[Option<DeviceHit>],

@@ -11,27 +11,27 @@ use rasray_reference::oracle::{Oracle, Verdict};
 use crate::hard_cases::{Expectation, HardCase};
 use crate::harness::Bench;
 
-/// A hard case with its truth and its triangles on the device, for all rows.
+/// Hard case with its truth and its triangles on the device, for all rows.
 #[derive(Debug)]
 pub struct Prepared {
-    /// The case; its primitive ids are those of the case's own triangle list.
+    /// Hard case; its primitive ids are those of the case's own triangle list.
     pub case: HardCase,
-    /// One per ray.
+    /// Verdicts of the oracle, one per ray.
     pub verdicts: Vec<Verdict>,
-    /// Triangles that a loader keeps.
+    /// Geometry of the triangles that a loader keeps.
     pub geometry: Geometry,
-    /// The rays with ids as the device counts them.
+    /// Rays with ids as the device counts them.
     pub rays: Vec<Ray>,
-    /// The case's eye, and a camera there.
+    /// Viewpoint: the case's eye, and a camera there.
     pub viewpoint: Viewpoint,
-    /// Only what the camera sees is evaluated.
+    /// True if only rays whose hits the camera sees are evaluated.
     pub only_camera: bool,
-    /// Numbers of these triangles.
+    /// Ids of the kept triangles.
     pub placed: Placed,
 }
 
 impl Prepared {
-    /// Queries the oracle and uploads what a loader keeps.
+    /// Asks the oracle, and uploads the triangles that a loader keeps.
     ///
     /// # Panics
     /// If the device fails or the oracle refuses the triangles.
@@ -46,7 +46,7 @@ impl Prepared {
         Self { geometry, verdicts, rays, viewpoint, only_camera: false, placed, case }
     }
 
-    /// Keeps only the first rays, for structures whose work grows with all triangles.
+    /// Keeps only the first rays, for structures whose work per ray grows with the number of triangles.
     pub fn truncate(&mut self, rays: usize) {
         self.case.rays.truncate(rays);
         self.verdicts.truncate(rays);
@@ -64,8 +64,8 @@ impl Prepared {
         }
     }
 
-    /// True for rays that are not evaluated: only what the camera sees is, and something that it may hit lies
-    /// outside.
+    /// True for a ray that is not evaluated: only hits that the camera sees are evaluated, and a possible hit
+    /// of this ray lies outside its view.
     pub fn is_unseen(&self, index: usize) -> bool {
         let Some(camera) = self.viewpoint.camera.filter(|_| self.only_camera) else { return false };
         let (ray, verdict) = (&self.case.rays[index], &self.verdicts[index]);
@@ -80,7 +80,7 @@ impl Prepared {
     }
 }
 
-/// An eye with the camera that all hard cases have.
+/// Makes the viewpoint of an eye with the camera that all hard cases have.
 fn viewpoint(eye: [f32; 3]) -> Viewpoint {
     let mut frame = Frame::zeroed();
     View { camera: case_camera(eye), width: 1, height: 1, seed: 0 }.write(&mut frame, DVec3::ZERO);

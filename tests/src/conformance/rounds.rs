@@ -2,8 +2,8 @@ use rasray_ads::{Domain, Hit, QueueCounters, Ray, RayQueue, Structure, Trace, Tr
 
 use crate::harness::Bench;
 
-/// Traces in at most `rounds` dispatches, whatever number the structure states, and returns what
-/// the queue holds afterwards, also where rays were given up or the structure was not ready.
+/// Traces in at most `rounds` dispatches, whatever number the structure states, and returns the contents of
+/// the queue afterwards, even if rays were given up or the structure was not ready.
 ///
 /// # Panics
 /// If the device fails.

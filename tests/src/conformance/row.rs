@@ -7,36 +7,36 @@ use crate::harness::Bench;
 /// Demand on the hits of a row.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Demand {
-    /// Every unambiguous ray finds its triangle at a t within the oracle's bounds of rounding, give or
-    /// take `rounding` (relative); ambiguous rays get an admissible answer.
+    /// Every unambiguous ray finds its triangle at a t within the oracle's bounds of rounding, widened by
+    /// `rounding` (relative); ambiguous rays get an admissible answer.
     Exact {
-        /// Relative to t.
+        /// Tolerance relative to t.
         rounding: f64,
     },
     /// The share of missed, false and (by `depth_tolerance`) wrong hits falls with the size of a cell: it is
-    /// at most `per_cell / resolution`, or what `laws` says for the case.
+    /// at most `per_cell / resolution`, or the limit that `laws` gives for the case.
     Law {
         /// Cells along a side of a face.
         resolution: u32,
-        /// Share of the unambiguous rays, times the resolution.
+        /// Largest share of the unambiguous rays, times the resolution.
         per_cell: f64,
-        /// |dt| / t that counts as right.
+        /// Largest |dt| / t that counts as right.
         depth_tolerance: f64,
-        /// Cases with a factor of their own.
+        /// Laws of the cases that have a factor of their own.
         laws: &'static [Law],
     },
-    /// Rules of a paper lose hits of a structure that finds triangles: the share of missed, false and wrong
-    /// hits is at most `share`, whatever the size of a cell.
+    /// The rules of a paper lose hits of a structure that finds triangles: the share of missed, false and
+    /// wrong hits is at most `share`, whatever the size of a cell.
     Loss {
-        /// Share of the unambiguous rays.
+        /// Largest share of the unambiguous rays.
         share: f64,
-        /// Rounding of a hit that is right, relative to t.
+        /// Rounding of a right hit, relative to t.
         rounding: f64,
     },
 }
 
 impl Demand {
-    /// Structures that it is made of.
+    /// Returns the kind of the structures for which the demand is made.
     pub fn kind(&self) -> StructureKind {
         match self {
             Self::Exact { .. } => StructureKind::Primitive,
@@ -46,31 +46,32 @@ impl Demand {
     }
 }
 
-/// A case whose errors fall with the size of a cell as well, from a higher start.
+/// Law of a case whose errors fall with the size of a cell as well, but from a higher start.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Law {
     /// Id of the case.
     pub case: &'static str,
-    /// Why it has more errors than others.
+    /// Reason for which the case has more errors than others.
     pub reason: &'static str,
-    /// Share of the unambiguous rays, times the resolution.
+    /// Largest share of the unambiguous rays, times the resolution.
     pub per_cell: f64,
-    /// The way in which the limit falls with the resolution.
+    /// Curve by which the limit falls with the resolution.
     pub curve: Curve,
 }
 
-/// The way in which the largest rate of a law falls with the resolution N.
+/// Curve by which the largest rate of a law falls with the resolution N.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Curve {
-    /// `per_cell / N`: each ray hits one border, whose share of the rays is as wide as a cell.
+    /// `per_cell / N`: each ray hits one border, which spoils a share of the rays proportional to the width
+    /// of a cell.
     Line,
-    /// `1 - exp(-per_cell / N)`: a ray is right only if none of many borders spoils it, each with a chance
-    /// that is as wide as a cell and does not depend on the others.
+    /// `1 - exp(-per_cell / N)`: a ray is right only if none of many borders spoils it, each independently
+    /// with a probability proportional to the width of a cell.
     Chances,
 }
 
 impl Law {
-    /// The largest rate at a resolution.
+    /// Returns the largest rate at a resolution.
     pub fn limit(&self, resolution: u32) -> f64 {
         let width = self.per_cell / f64::from(resolution);
         match self.curve {
@@ -80,36 +81,36 @@ impl Law {
     }
 }
 
-/// A case on which a row does not meet its demand.
+/// Deviation of a row on a case where the row does not meet its demand.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Deviation {
     /// Id of the case.
     pub case: &'static str,
-    /// Why.
+    /// Reason for the deviation.
     pub reason: &'static str,
-    /// The error rate is at least this: less is an unexpected pass.
+    /// Least error rate; a lower rate is an unexpected pass.
     pub at_least_rate: f64,
-    /// The error rate is at most this.
+    /// Largest error rate.
     pub at_most_rate: f64,
 }
 
 /// Cases that a row is held against.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Cases {
-    /// All of them.
+    /// All cases.
     All,
-    /// All but [`DEEP`].
+    /// All cases except [`DEEP`].
     Shallow,
-    /// Only [`DEEP`].
+    /// Only the cases in [`DEEP`].
     Deep,
 }
 
-/// Cases whose hundreds of layers fill every cell: fragment structures trace them at a low resolution, since
+/// Cases whose hundreds of layers fill every cell. Fragment structures trace them at a low resolution, since
 /// millions of fragments would show nothing more.
 pub const DEEP: &[&str] = &["C10", "Z6", "Z6-pixel", "Z7"];
 
 impl Cases {
-    /// True if the case with this id is among them.
+    /// True if the case with this id is one of them.
     pub fn contain(self, id: &str) -> bool {
         match self {
             Self::All => true,
@@ -119,38 +120,38 @@ impl Cases {
     }
 }
 
-/// When a row is held.
+/// Tier of tests that holds a row against its cases.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Tier {
-    /// In every run.
+    /// The quick tier: every run.
     Quick,
-    /// Only where `RASRAY_FULL` is 1.
+    /// The full tier: only if `RASRAY_FULL` is 1.
     Full,
 }
 
-/// A system of the registry with a preset and options.
+/// Row: a system of the registry with a preset and options.
 #[derive(Clone, Copy, Debug)]
 pub struct Row {
-    /// Unique; failures are reported under it.
+    /// Unique name, under which failures are reported.
     pub name: &'static str,
     /// Name of the system.
     pub system: &'static str,
-    /// Its preset.
+    /// Preset of the system.
     pub preset: Preset,
-    /// Options over the preset, by name.
+    /// Options that override the preset, by name.
     pub options: &'static [(&'static str, &'static str)],
-    /// When it is held.
+    /// Tier in which the row is held.
     pub tier: Tier,
-    /// Against which cases.
+    /// Cases against which the row is held.
     pub cases: Cases,
     /// Demand on the answers to every case.
     pub demand: Demand,
-    /// The cases that are known not to meet it. None may be listed for [`Demand::Exact`].
+    /// Cases that are known not to meet the demand. None may be listed for [`Demand::Exact`].
     pub deviations: &'static [Deviation],
 }
 
 impl Row {
-    /// A row of `preset=robust` from which every answer must be right.
+    /// Makes a row of `preset=robust` whose every answer must be right.
     pub(super) const fn exact(
         name: &'static str,
         system: &'static str,
@@ -162,10 +163,10 @@ impl Row {
         Self { name, system, preset: Preset::Robust, options, tier, cases, demand, deviations: &[] }
     }
 
-    /// Specification of the structure.
+    /// Returns the specification of the structure.
     ///
     /// # Panics
-    /// If the registry does not know the row's words.
+    /// If the registry does not know a word of the row.
     pub fn spec(&self) -> Spec {
         let options = self.options.iter().map(|(name, value)| ((*name).to_owned(), (*value).to_owned()));
         Spec::new(self.system, self.preset.name(), options)
@@ -175,14 +176,14 @@ impl Row {
     /// Makes the structure; its geometry is replaced for each case.
     ///
     /// # Panics
-    /// If the registry does not know the row's words, or the device refuses.
+    /// If the registry does not know a word of the row, or the device refuses.
     pub fn make(&self, bench: &Bench, geometry: &Geometry) -> Box<dyn Structure> {
         self.spec()
             .create(bench.device(), geometry, None)
             .unwrap_or_else(|error| panic!("row {} cannot be made: {error}", self.name))
     }
 
-    /// A structure as the row says, with pools reached by address.
+    /// Makes the row's structure with pools reached by address.
     ///
     /// # Panics
     /// As [`make`](Self::make), or if the structure has no pools.
@@ -192,7 +193,7 @@ impl Row {
             .unwrap_or_else(|error| panic!("row {} cannot be made by address: {error}", self.name))
     }
 
-    /// Largest error of depth in the error rate, and of t beyond the oracle's bounds.
+    /// Returns the largest error of depth for the error rate, and of t beyond the oracle's bounds.
     pub fn tolerances(&self) -> (f64, f64) {
         match self.demand {
             Demand::Exact { rounding } => (0.0, rounding),
@@ -201,7 +202,7 @@ impl Row {
         }
     }
 
-    /// True if it has no views but the camera's, so that only what that sees is evaluated.
+    /// True if the structure has only the view of the camera, so that only hits in this view are evaluated.
     pub fn only_camera(&self) -> bool {
         self.options.contains(&("views", "camera"))
     }
@@ -211,7 +212,7 @@ impl Row {
         matches!(self.demand, Demand::Exact { .. })
     }
 
-    /// The largest rate of wrong answers on a case without a deviation.
+    /// Returns the largest rate of wrong answers on a case without a deviation.
     pub fn largest_rate(&self, case: &str) -> f64 {
         match self.demand {
             Demand::Exact { .. } => 0.0,
@@ -223,7 +224,7 @@ impl Row {
         }
     }
 
-    /// Bound on its answers to a case, in words.
+    /// Describes the bound on the row's answers to a case.
     pub fn limit(&self, case: &str) -> String {
         let deviation = self.deviations.iter().find(|deviation| deviation.case == case);
         match (self.demand, deviation) {
@@ -241,7 +242,7 @@ impl Row {
         }
     }
 
-    /// The command that traces one ray of a case with this row's system and prints what it did.
+    /// Returns the command that traces one ray of a case with this row's system and prints each step.
     pub fn replay_command(&self, case: &str, seed: u64, ray: usize) -> String {
         let options: String =
             self.options.iter().map(|(name, value)| format!(" {}.{name}={value}", self.system)).collect();
@@ -253,7 +254,7 @@ impl Row {
     }
 }
 
-/// Demand on the published presets of fragment structures.
+/// Returns the demand on the published presets of fragment structures.
 pub(super) const fn published_law(resolution: u32) -> Demand {
     // A fragment is a depth at its cell's centre: surfaces that lean by 45 degrees are off by half a cell.
     Demand::Law { resolution, per_cell: 1.92, depth_tolerance: 2e-2, laws: &[] }

@@ -10,25 +10,25 @@ pub static ROWS: LazyLock<Vec<Row>> = LazyLock::new(|| {
         .concat()
 });
 
-/// Number of comparisons of rows with cases in all runs together: each law and each end of a deviation is one
-/// comparison, for rays that the oracle decides and for those that it does not.
+/// Returns the number of comparisons of rows with cases in all runs together. Each law and each end of a
+/// deviation is one comparison for rays that the oracle decides, and one for rays that it does not.
 pub fn comparisons() -> usize {
     let cases = |row: &Row| hard_cases::ids().iter().filter(|id| row.cases.contain(id)).count();
     ROWS.iter().map(|row| 4 * cases(row)).sum()
 }
 
-/// The quick tier holds one of so many pairs of a row and a case that go together.
+/// Divisor of the quick tier: it holds one in this many pairs of a row and a case that go together.
 pub const SHARE: usize = 4;
 
-/// Cases of a hundred thousand triangles and more, which take software drivers far longer than others.
+/// Cases of a hundred thousand triangles and more, which take software drivers much longer than others.
 pub const LARGE: &[&str] = &["E2-400", "E2-400-far", "C3", "C3-random"];
 
-/// [`SHARE`] of [`LARGE`] cases: no more than there are rows of either kind.
+/// Divisor [`SHARE`] for [`LARGE`] cases: at most the number of rows of either kind.
 const LARGE_SHARE: usize = 10;
 
-/// True if this run holds a row against a case: in the full tier every pair. In the quick one rows and cases
-/// go round against each other, apart for rows that find triangles without loss and for others, and apart for
-/// [`DEEP`], [`LARGE`] and other cases: each row has some of the deep and some of the other cases that it is
+/// True if this run holds a row against a case. The full tier holds every pair. In the quick tier rows and
+/// cases take turns, separately for rows that find triangles without loss and for others, and separately for
+/// [`DEEP`], [`LARGE`] and other cases: each row gets some of the deep and some of the other cases that it is
 /// held against, each case some rows of each kind.
 pub fn is_held(row: &Row, case: &str) -> bool {
     let is_alike = |other: &&Row| {

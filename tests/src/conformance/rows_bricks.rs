@@ -2,10 +2,10 @@
 
 use super::row::{Cases, Row, Tier};
 
-/// All of them.
+/// All rows of bricks.
 pub(super) const ROWS: &[Row] = &[
-    // Faces of a cube: 16 columns along a side and few slices, then as many as a scene of three hundred
-    // thousand triangles gets.
+    // These rows have faces of a cube: 16 columns along a side and few slices, then as many as a scene of
+    // three hundred thousand triangles gets.
     Row::exact(
         "bricks-cube-16",
         "bricks",
@@ -20,7 +20,7 @@ pub(super) const ROWS: &[Row] = &[
         Tier::Quick,
         Cases::Shallow,
     ),
-    // Along the axes: as many cells as the rule gives, then few, then many.
+    // These rows have cells along the axes: as many as the rule gives, then few, then many.
     Row::exact("bricks-axes", "bricks", &[], Tier::Quick, Cases::Shallow),
     Row::exact("bricks-axes-16", "bricks", &[("grid", "16")], Tier::Full, Cases::All),
     Row::exact("bricks-axes-128", "bricks", &[("grid", "128")], Tier::Full, Cases::Shallow),

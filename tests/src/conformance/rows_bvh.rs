@@ -2,7 +2,7 @@
 
 use super::row::{Cases, Row, Tier};
 
-/// All of them.
+/// All rows of the baselines and of brute force.
 pub(super) const ROWS: &[Row] = &[
     Row::exact("bvh-sah", "bvh", &[("builder", "sah")], Tier::Quick, Cases::All),
     Row::exact("bvh-sah-two", "bvh", &[("builder", "sah"), ("children", "2")], Tier::Full, Cases::All),
@@ -12,7 +12,7 @@ pub(super) const ROWS: &[Row] = &[
     Row::exact("bvh-ploc-two", "bvh", &[("builder", "ploc"), ("children", "2")], Tier::Full, Cases::All),
     Row::exact("bvh-trbvh", "bvh", &[("builder", "trbvh")], Tier::Quick, Cases::All),
     Row::exact("bvh-trbvh-two", "bvh", &[("builder", "trbvh"), ("children", "2")], Tier::Full, Cases::All),
-    // On cases its first build is that by Morton codes; scenes that move have the others.
+    // The first build, on every case, is by Morton codes; only moving scenes have refitted builds.
     Row::exact("bvh-refit", "bvh", &[("builder", "refit")], Tier::Full, Cases::All),
     Row::exact("bvh-refit-four", "bvh", &[("builder", "refit"), ("children", "4")], Tier::Full, Cases::All),
     Row::exact("grid", "grid", &[], Tier::Quick, Cases::All),

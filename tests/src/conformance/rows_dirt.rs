@@ -16,9 +16,9 @@ const fn published(
     Row { name, system: "dirt", preset, options, tier, cases, demand, deviations }
 }
 
-/// All of them.
+/// All rows of DIRT.
 pub(super) const ROWS: &[Row] = &[
-    // 16 coarse tiles along a side, few buckets, linked lists.
+    // This row has 16 coarse tiles along a side, few buckets and linked lists.
     Row::exact(
         "dirt-lists-16",
         "dirt",
@@ -27,8 +27,8 @@ pub(super) const ROWS: &[Row] = &[
         Cases::All,
     ),
     Row::exact("dirt-lists-128", "dirt", &[("storage", "sb")], Tier::Full, Cases::Shallow),
-    // Tiles and buckets as the paper advises at least, and as its second table was measured; few tiles where
-    // lists are deep.
+    // These rows have the least tiles and buckets that the paper advises, and those of its second table; few
+    // tiles if lists are deep.
     Row {
         cases: Cases::Deep,
         ..published(

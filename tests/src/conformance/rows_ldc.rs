@@ -20,12 +20,12 @@ const fn ldc(
     Row { name, system: "ldc", preset, options, tier: Tier::Quick, cases, demand, deviations }
 }
 
-/// Planes of fragments in place of triangles.
+/// Options for planes of fragments in place of triangles.
 const PLANES_16: &[(&str, &str)] = &[("resolution", "16"), ("accept", "plane")];
 const PLANES_64: &[(&str, &str)] = &[("resolution", "64"), ("accept", "plane")];
 const PLANES_256: &[(&str, &str)] = &[("resolution", "256"), ("accept", "plane")];
 
-/// All of them.
+/// All rows of the layered depth cube.
 pub(super) const ROWS: &[Row] = &[
     ldc("ldc-planes-16", Preset::Robust, PLANES_16, Cases::Deep, ldc_law(16), &[]),
     ldc("ldc-planes-64", Preset::Robust, PLANES_64, Cases::Shallow, ldc_law(64), &[]),
@@ -33,7 +33,7 @@ pub(super) const ROWS: &[Row] = &[
         tier: Tier::Full,
         ..ldc("ldc-planes-256", Preset::Robust, PLANES_256, Cases::Shallow, ldc_law(256), &[])
     },
-    // Triangles in every cell that they reach into, and nothing but these is hit.
+    // Triangles are stored in every cell that they reach into, and only triangles are hit.
     Row::exact("ldc-robust-16", "ldc", &[("resolution", "16")], Tier::Quick, Cases::Shallow),
     Row::exact("ldc-robust-64", "ldc", &[("resolution", "64")], Tier::Full, Cases::Shallow),
     // Fragments are hit at their own depth, plus or minus the rise of their triangles over half a cell.
@@ -45,7 +45,7 @@ pub(super) const ROWS: &[Row] = &[
         published_law(64),
         deviations_ldc::SLOPE_64,
     ),
-    // Triangle ids instead of attributes, which need a scene.
+    // Rows use triangle ids instead of attributes, which need a scene.
     ldc(
         "ldc-published-16",
         Preset::Published,

@@ -6,7 +6,7 @@ use super::deviations;
 use super::row::{Cases, Demand, Deviation, Row, Tier, published_law};
 
 const fn centres_law(resolution: u32) -> Demand {
-    // One ray in a hundred at 64 cells along a side.
+    // The law allows one ray in a hundred at 64 cells along a side.
     Demand::Law { resolution, per_cell: 0.64, depth_tolerance: 1e-3, laws: deviations::CENTRES_LAWS }
 }
 
@@ -21,7 +21,7 @@ const fn mmrt(
     Row { name, system: "mmrt", preset, options, tier: Tier::Quick, cases, demand, deviations }
 }
 
-/// All of them.
+/// All rows of MMRT.
 pub(super) const ROWS: &[Row] = &[
     mmrt(
         "mmrt-centres-16",
@@ -58,7 +58,8 @@ pub(super) const ROWS: &[Row] = &[
             deviations::CENTRES_256,
         )
     },
-    // The cube's cells and finer ones of the camera, which looks away from the axes; then the camera alone.
+    // These rows have the cube's cells and finer ones of the camera, which looks away from the axes; then the
+    // camera alone.
     Row {
         tier: Tier::Full,
         ..mmrt(
@@ -83,7 +84,7 @@ pub(super) const ROWS: &[Row] = &[
         centres_law(64),
         deviations::CAMERA_64,
     ),
-    // Planes, and in addition the triangles that are lost or seen edge-on.
+    // This row has planes, and in addition the triangles that are lost or seen edge-on.
     Row {
         tier: Tier::Full,
         ..mmrt(
@@ -95,7 +96,7 @@ pub(super) const ROWS: &[Row] = &[
             deviations::EDGE_ON_64,
         )
     },
-    // Planes that fragments carry themselves, which do not end where their triangles do.
+    // This row has planes that fragments carry themselves, which do not end where their triangles end.
     Row {
         tier: Tier::Full,
         ..mmrt(
@@ -107,7 +108,7 @@ pub(super) const ROWS: &[Row] = &[
             deviations::PLANES_64,
         )
     },
-    // Every triangle that reaches into a cell is kept there: hits are those of triangles.
+    // Every cell keeps each triangle that reaches into it: hits are those of triangles.
     Row::exact("mmrt-robust-16", "mmrt", &[("resolution", "16")], Tier::Quick, Cases::All),
     Row::exact("mmrt-robust-64", "mmrt", &[("resolution", "64")], Tier::Full, Cases::Shallow),
     Row::exact(
@@ -124,7 +125,7 @@ pub(super) const ROWS: &[Row] = &[
         Tier::Full,
         Cases::Shallow,
     ),
-    // Triangle ids instead of attributes, which need a scene.
+    // Rows use triangle ids instead of attributes, which need a scene.
     mmrt(
         "mmrt-published-16",
         Preset::Published,

@@ -20,7 +20,8 @@ const fn voxel(
     Row { name, system, preset, options, tier: Tier::Quick, cases, demand, deviations }
 }
 
-/// All of them. Those of published rules have triangle ids instead of attributes, which need a scene.
+/// All rows of Hu and of the selective variant. Rows of published rules have triangle ids instead of
+/// attributes, which need a scene.
 pub(super) const ROWS: &[Row] = &[
     voxel(
         "hu-centres-16",
@@ -46,7 +47,8 @@ pub(super) const ROWS: &[Row] = &[
         voxel_law(128),
         deviations_voxel::CENTRES_128,
     ),
-    // As published, but every cell is visited, with crossings counted where the ray enters and leaves it.
+    // These rows are as published, except that every cell is visited, with crossings counted where the ray
+    // enters and leaves it.
     voxel(
         "hu-published-exact-128",
         ("hu", Preset::Published),
@@ -55,7 +57,7 @@ pub(super) const ROWS: &[Row] = &[
         published_law(128),
         deviations_voxel::PARITY_128,
     ),
-    // Every triangle that reaches into a cell is kept there: hits are those of triangles.
+    // Every cell keeps each triangle that reaches into it: hits are those of triangles.
     Row::exact("hu-robust-16", "hu", &[("resolution", "16")], Tier::Quick, Cases::Shallow),
     Row::exact("hu-robust-64", "hu", &[("resolution", "64")], Tier::Full, Cases::Shallow),
     Row::exact("selective-robust-32", "selective", &[("resolution", "32")], Tier::Full, Cases::Shallow),
@@ -90,7 +92,7 @@ pub(super) const ROWS: &[Row] = &[
         voxel_law(16),
         deviations_voxel::CENTRES_16,
     ),
-    // Hits are those of `hu` with fragments alone, bit for bit, and so are laws and deviations.
+    // Hits equal those of `hu` with fragments alone, bit for bit, and so do laws and deviations.
     Row {
         tier: Tier::Full,
         ..voxel(

@@ -5,10 +5,10 @@
 
 use std::f64::consts::PI;
 
-/// Steps of the polar angle and of half the azimuth.
+/// Number of steps of the polar angle and of half the azimuth.
 const STEPS: [usize; 2] = [800, 400];
 
-/// A diffuse base under a dielectric coat.
+/// Plastic: a diffuse base under a dielectric coat.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Plastic {
     /// Colour of the base, in [0, 1].
@@ -23,8 +23,8 @@ fn schlick(f0: f64, cosine: f64) -> f64 {
     f0 + (1.0 - f0) * (1.0 - cosine).powi(5)
 }
 
-/// Mean over the upper hemisphere of `value(i . n, o . h, lobe)` weighted with the cosine, where `lobe` is D
-/// G over four cosines.
+/// Integrates the mean over the upper hemisphere of `value(i . n, o . h, lobe)` weighted with the cosine,
+/// where `lobe` is D G over four cosines.
 fn integrate(cosine_o: f64, roughness: f64, value: impl Fn(f64, f64, f64) -> f64) -> f64 {
     let alpha_squared = roughness.powi(4);
     let sine_o = (1.0 - cosine_o * cosine_o).sqrt();
@@ -36,7 +36,7 @@ fn integrate(cosine_o: f64, roughness: f64, value: impl Fn(f64, f64, f64) -> f64
         for azimuth in 0..STEPS[1] {
             let phi = PI * (azimuth as f64 + 0.5) / STEPS[1] as f64;
             let between = cosine_o * cosine_i + sine_o * sine_i * phi.cos();
-            // |o + i|^2 = 2 + 2 o.i, so the half vector's cosines need no vector.
+            // By |o + i|^2 = 2 + 2 o.i, the half vector's cosines need no vector.
             let length = (2.0 + 2.0 * between).sqrt();
             let (facet, normal) = ((1.0 + between) / length, (cosine_o + cosine_i) / length);
             let slope = normal * normal * (alpha_squared - 1.0) + 1.0;
@@ -52,7 +52,7 @@ fn integrate(cosine_o: f64, roughness: f64, value: impl Fn(f64, f64, f64) -> f64
 /// Shares of a white sky's light, for facets of one roughness.
 #[derive(Clone, Copy)]
 struct Facets {
-    /// Share that facets of reflectance 1 lose in one scattering, under the given cosine.
+    /// Share that facets of reflectance 1 lose in one scattering, at the given cosine.
     lost: f64,
     /// Share that facets of reflectance (1 - o.h)^5 send back.
     schlick: f64,
@@ -75,7 +75,8 @@ impl Facets {
         }
     }
 
-    /// Share that facets of this reflectance at normal incidence send back, after however many scatterings.
+    /// Returns the share that facets of this reflectance at normal incidence send back, after any number of
+    /// scatterings.
     fn reflected(&self, f0: f64) -> f64 {
         let once = f0 * (1.0 - self.lost - self.schlick) + self.schlick;
         // Light that is lost hits facets again, each time with their mean reflectance.
@@ -85,16 +86,16 @@ impl Facets {
     }
 }
 
-/// Share of a white sky that a metal of this base colour shows under the cosine `cosine_o`.
+/// Returns the share of a white sky that a metal of this base colour shows at the cosine `cosine_o`.
 pub fn metal_albedo(base_color: f64, roughness: f64, cosine_o: f64) -> f64 {
     Facets::new(roughness, cosine_o).reflected(base_color)
 }
 
-/// Share of a white sky that a plastic shows under the cosine `cosine_o`.
+/// Returns the share of a white sky that a plastic shows at the cosine `cosine_o`.
 pub fn plastic_albedo(plastic: Plastic, cosine_o: f64) -> f64 {
     let f0 = ((plastic.ior - 1.0) / (plastic.ior + 1.0)).powi(2);
     let reflected = Facets::new(plastic.roughness, cosine_o).reflected(f0);
-    // The base gets what the coat lets in, and the coat lets as much out again.
+    // The base gets the light that passes the coat, and the coat lets an equal share out again.
     reflected + plastic.base_color * (1.0 - reflected)
 }
 
@@ -104,7 +105,7 @@ mod tests {
 
     #[test]
     fn a_base_without_coat_shows_its_colour() {
-        // The quadrature itself: a constant lobe integrates to pi.
+        // This checks the quadrature itself: a constant lobe integrates to pi.
         assert!((integrate(0.7, 0.5, |_, _, _| 1.0 / PI) - 1.0).abs() < 1e-5);
     }
 

@@ -4,14 +4,14 @@ use std::f64::consts::PI;
 
 use glam::DVec3;
 
-/// Radiance everywhere in a closed diffuse enclosure that emits `emission` and reflects `albedo`, after at
-/// most `bounces` scatterings.
+/// Returns the radiance everywhere in a closed diffuse enclosure that emits `emission` and reflects `albedo`,
+/// after at most `bounces` scatterings.
 pub fn enclosure(emission: f64, albedo: f64, bounces: u32) -> f64 {
     emission * (0..=bounces).rev().fold(0.0, |sum, _| 1.0 + albedo * sum)
 }
 
-/// Form factor between two equal, parallel, opposite rectangles of `width` by `depth`, `distance` apart
-/// (Howell C-11). Metres.
+/// Returns the form factor between two equal, parallel, opposite rectangles of `width` by `depth`, `distance`
+/// apart (Howell C-11). Metres.
 pub fn parallel_rectangles(width: f64, depth: f64, distance: f64) -> f64 {
     let (x, y) = (width / distance, depth / distance);
     let (xx, yy) = (1.0 + x * x, 1.0 + y * y);
@@ -20,8 +20,8 @@ pub fn parallel_rectangles(width: f64, depth: f64, distance: f64) -> f64 {
     2.0 / (PI * x * y) * (logarithm + across - x * x.atan() - y * y.atan())
 }
 
-/// Form factor from a rectangle of `edge` by `depth` to one of `edge` by `height` that stands upright on
-/// the common edge (Howell C-14). Metres.
+/// Returns the form factor from a rectangle of `edge` by `depth` to one of `edge` by `height` that stands
+/// upright on the common edge (Howell C-14). Metres.
 pub fn perpendicular_rectangles(edge: f64, depth: f64, height: f64) -> f64 {
     let (w, h) = (depth / edge, height / edge);
     let (ww, hh) = (w * w, h * h);
@@ -34,8 +34,8 @@ pub fn perpendicular_rectangles(edge: f64, depth: f64, height: f64) -> f64 {
     (angles + 0.25 * powers) / (PI * w)
 }
 
-/// Irradiance that a polygon of radiance 1 casts on a surface element at `point` with the unit `normal`,
-/// W/m^2: Lambert's sum over the edges of what lies above the horizon. Corners in order, metres.
+/// Returns the irradiance that a polygon of radiance 1 casts on a surface element at `point` with the unit
+/// `normal`, W/m^2: Lambert's sum over the edges of the part above the horizon. Corners in order, metres.
 pub fn polygon_irradiance(point: DVec3, normal: DVec3, corners: &[DVec3]) -> f64 {
     let above = above_horizon(point, normal, corners);
     let edge = |i: usize| {
@@ -46,8 +46,8 @@ pub fn polygon_irradiance(point: DVec3, normal: DVec3, corners: &[DVec3]) -> f64
     0.5 * (0..above.len()).map(edge).sum::<f64>().abs()
 }
 
-/// The part of a polygon on the side of the plane through `point` that `normal` points to, relative to
-/// `point`.
+/// Returns the part of a polygon on the side of the plane through `point` that `normal` points to, relative
+/// to `point`.
 fn above_horizon(point: DVec3, normal: DVec3, corners: &[DVec3]) -> Vec<DVec3> {
     let mut kept = Vec::with_capacity(corners.len() + 2);
     for (i, corner) in corners.iter().enumerate() {
@@ -63,28 +63,29 @@ fn above_horizon(point: DVec3, normal: DVec3, corners: &[DVec3]) -> Vec<DVec3> {
     kept
 }
 
-/// Cosine-weighted share of the sky that a closed convex body hides from a surface element at `point` with
-/// the unit `normal`: what its triangles that face the point cast together, since no two of them overlap.
+/// Returns the cosine-weighted share of the sky that a closed convex body hides from a surface element at
+/// `point` with the unit `normal`: the irradiance of its triangles that face the point, none of which
+/// overlap.
 pub fn convex_occlusion(point: DVec3, normal: DVec3, triangles: &[[DVec3; 3]]) -> f64 {
     let faces = |[a, b, c]: &[DVec3; 3]| (*b - *a).cross(*c - *a).dot(point - *a) > 0.0;
     let hidden = triangles.iter().filter(|triangle| faces(triangle));
     hidden.map(|triangle| polygon_irradiance(point, normal, triangle)).sum::<f64>() / PI
 }
 
-/// Such a share for a sphere of `radius` whose centre is `height` above the plane and `distance` aside; it
-/// must lie above the plane. Metres.
+/// Returns the cosine-weighted share of the sky that a sphere of `radius` hides, whose centre is `height`
+/// above the plane and `distance` aside; the sphere must lie above the plane. Metres.
 pub fn next_to_sphere(radius: f64, height: f64, distance: f64) -> f64 {
     let squared = height * height + distance * distance;
     height * radius * radius / (squared * squared.sqrt())
 }
 
-/// Reflectance at normal incidence between indices of refraction of 1 and `ior`.
+/// Returns the reflectance at normal incidence between indices of refraction of 1 and `ior`.
 pub fn normal_reflectance(ior: f64) -> f64 {
     ((ior - 1.0) / (ior + 1.0)).powi(2)
 }
 
-/// Share of light that passes a stack of interfaces with these reflectances at normal incidence, all
-/// reflections between them included, without interference and absorption.
+/// Returns the share of light that passes a stack of interfaces with these reflectances at normal incidence,
+/// with all reflections between them, without interference and absorption.
 pub fn interface_transmission(reflectances: &[f64]) -> f64 {
     1.0 / (1.0 + reflectances.iter().map(|r| r / (1.0 - r)).sum::<f64>())
 }
@@ -101,7 +102,7 @@ mod tests {
     fn tabulated_values() {
         near(parallel_rectangles(1.0, 1.0, 1.0), 0.199_824_896);
         near(perpendicular_rectangles(1.0, 1.0, 1.0), 0.200_043_776);
-        // The faces of a cube see nothing but each other.
+        // The faces of a cube see only each other.
         near(parallel_rectangles(1.0, 1.0, 1.0) + 4.0 * perpendicular_rectangles(1.0, 1.0, 1.0), 1.0);
         near(1.0 - next_to_sphere(1.0, 1.0, 0.5), 0.284_458);
         near(enclosure(1.0, 0.5, 3), 1.875);
@@ -113,7 +114,8 @@ mod tests {
 
     #[test]
     fn closure_and_reciprocity() {
-        // A flat box 2 by 3 by 5: from the face 2 by 3, opposite and two of each kind next to it.
+        // The box is 2 by 3 by 5: from the face 2 by 3, one face is opposite and two of each kind are
+        // adjacent.
         let sum = parallel_rectangles(2.0, 3.0, 5.0)
             + 2.0 * perpendicular_rectangles(2.0, 3.0, 5.0)
             + 2.0 * perpendicular_rectangles(3.0, 2.0, 5.0);
@@ -130,7 +132,7 @@ mod tests {
         };
         assert!((polygon_irradiance(DVec3::ZERO, up, &square(1e5, 1.0)) / PI - 1.0).abs() < 1e-4);
         assert_eq!(polygon_irradiance(DVec3::ZERO, up, &square(1.0, -1.0)), 0.0);
-        // A long wall of height 1 seen from distance 1; what is below the horizon does not count.
+        // A long wall of height 1 is seen from distance 1; the part below the horizon does not count.
         let wall = |bottom: f64| {
             [(bottom, -1e4), (bottom, 1e4), (1.0, 1e4), (1.0, -1e4)].map(|(y, z)| DVec3::new(1.0, y, z))
         };

@@ -1,36 +1,36 @@
-//! A mean with its standard error, and the one bound that all closed forms are checked with.
+//! Estimate: a mean with its standard error, and the one bound with which all closed forms are checked.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Standard errors that an estimate may be off. All checks of one run together, at most [`CHECK_LIMIT`] of
-/// them, pass a wrong verdict on a right program with a probability below 1e-6: Student's distribution with
-/// the [`Estimate::PIXELS`] degrees of freedom that every estimate has at least puts 2.7e-9 beyond it.
+/// Largest error of an estimate, in standard errors. All checks of one run together, at most [`CHECK_LIMIT`]
+/// of them, refuse a right program with a probability below 1e-6: Student's distribution with the
+/// [`Estimate::PIXELS`] degrees of freedom that every estimate has at least puts 2.7e-9 beyond this bound.
 pub const SIGMAS: f64 = 6.0;
 
-/// Most checks of one channel that the family-wise bound of [`SIGMAS`] covers.
+/// Largest number of checks, each of one channel, that the family-wise bound of [`SIGMAS`] covers.
 pub const CHECK_LIMIT: usize = 350;
 
-/// Checks of this program so far.
+/// Number of checks of this program so far.
 static CHECKS: AtomicUsize = AtomicUsize::new(0);
 
-/// Error of an estimate by single precision, relative: sums of some thousand terms.
+/// Relative error of an estimate by single precision: sums of some thousand terms.
 const ROUNDING: f64 = 1e-5;
 
-/// The mean of an image by channel, and how sure it is.
+/// Mean of an image by channel, with its standard error.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Estimate {
-    /// Over pixels and samples.
+    /// Mean over pixels and samples.
     pub mean: [f64; 3],
     /// Standard error of `mean`.
     pub sigma: [f64; 3],
 }
 
 impl Estimate {
-    /// Fewest pixels of an image: the degrees of freedom of its standard error.
+    /// Least number of pixels of an image: the degrees of freedom of its standard error.
     pub const PIXELS: usize = 1024;
 
-    /// From two images of the same view with different samples. Pixels may differ from each other: the
-    /// error comes from how each pixel differs between the two.
+    /// Makes the estimate from two images of one view with different samples. Pixels may differ from each
+    /// other: the error is computed from the differences of each pixel between the two images.
     ///
     /// # Panics
     /// If the sizes differ or there are fewer than [`Estimate::PIXELS`] pixels.
@@ -49,12 +49,12 @@ impl Estimate {
         }
     }
 
-    /// The worst channel's distance from the truth, beyond what `slack` (a share of the truth) and rounding
-    /// allow, in standard errors; infinite where nothing varies and the value is wrong.
+    /// Returns the distance of the worst channel from the truth, beyond the tolerance of `slack` (a share of
+    /// the truth) and rounding, in standard errors; infinite if nothing varies and the value is wrong.
     pub fn deviation(&self, truth: [f64; 3], slack: f64) -> f64 {
         let channel = |c: usize| {
             let beyond = (self.mean[c] - truth[c]).abs() - (slack + ROUNDING) * truth[c].abs();
-            // Written so that NaN is infinitely wrong.
+            // The comparison is written so that NaN is infinitely wrong.
             if beyond <= 0.0 {
                 0.0
             } else if self.sigma[c] > 0.0 && beyond.is_finite() {
@@ -68,7 +68,7 @@ impl Estimate {
 }
 
 /// Fails unless the estimate is within [`SIGMAS`] standard errors of the truth; `slack` (a share of the
-/// truth) is what the structure's own law allows.
+/// truth) is the error that the structure's own law allows.
 ///
 /// # Panics
 /// If the estimate is farther off.
@@ -87,7 +87,7 @@ pub fn assert_truth(name: &str, estimate: &Estimate, truth: [f64; 3], slack: f64
     assert!(deviation <= SIGMAS, "{name}: {deviation} sigma from {truth:?}: {estimate:?}");
 }
 
-/// Fails unless a broken variant is noticed by the very check that the right one passes.
+/// Fails unless the check that a right variant passes detects a broken variant.
 ///
 /// # Panics
 /// If the estimate would pass as the truth.
@@ -105,7 +105,7 @@ mod tests {
 
     fn noise(seed: u64, mean: f32) -> Vec<[f32; 3]> {
         let mut random = Random::new(seed);
-        // Pixels of different brightness, each with noise of its own.
+        // Pixels differ in brightness, each with noise of its own.
         (0..1024).map(|i| [mean * (i % 7) as f32 / 3.0 + random.between(-0.5, 0.5); 3]).collect()
     }
 

@@ -1,5 +1,5 @@
-//! Images whose values are known in closed form, and the statistics that hold a rendered image against
-//! them. What is checked, and how to run it again, is in `docs/image-truth.md`.
+//! Images whose values are known in closed form, and the statistics that compare a rendered image with these
+//! values. `docs/image-truth.md` lists the checks, and how to run them again.
 
 mod albedo;
 mod closed_forms;

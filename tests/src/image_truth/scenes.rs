@@ -3,7 +3,7 @@
 use glam::{DAffine3, DMat3, DVec3};
 use rasray_scene::{Camera, Instance, Material, Mesh, Projection, Scene};
 
-/// Reflects exactly `albedo`, evenly, from both sides; nothing specular.
+/// Makes a material that reflects exactly `albedo`, evenly, from both sides, without specular reflection.
 pub fn diffuse(albedo: [f32; 3]) -> Material {
     let [red, green, blue] = albedo;
     Material {
@@ -15,22 +15,23 @@ pub fn diffuse(albedo: [f32; 3]) -> Material {
     }
 }
 
-/// [`diffuse`] with emission, W/(sr m^2).
+/// Makes [`diffuse`] with emission, W/(sr m^2).
 pub fn glowing(albedo: [f32; 3], emission: [f32; 3]) -> Material {
     Material { emission, ..diffuse(albedo) }
 }
 
-/// Shows `radiance` from both sides and scatters nothing; light samples do not know it.
+/// Makes a material that shows `radiance` from both sides and scatters nothing; light samples do not include
+/// it.
 pub fn unlit(radiance: f32) -> Material {
     Material { unlit: true, ..diffuse([radiance; 3]) }
 }
 
-/// Clear and perfectly smooth, with an inside.
+/// Makes clear and perfectly smooth glass with an inside.
 pub fn glass(ior: f32) -> Material {
     Material { specular: 1.0, transmission: 1.0, roughness: 0.0, thickness: 1.0, ior, ..diffuse([1.0; 3]) }
 }
 
-/// A parallelogram with corners at `centre` plus and minus `u` and `v`; counter-clockwise seen from the
+/// Makes a parallelogram with corners at `centre` plus and minus `u` and `v`; counter-clockwise seen from the
 /// side that u x v points to.
 pub fn square(centre: DVec3, u: DVec3, v: DVec3, material: usize) -> Mesh {
     let corners = [centre - u - v, centre + u - v, centre + u + v, centre - u + v];
@@ -43,7 +44,7 @@ pub fn square(centre: DVec3, u: DVec3, v: DVec3, material: usize) -> Mesh {
     }
 }
 
-/// The six faces of the box with half sizes `half` around `centre`, fronts outwards.
+/// Makes the six faces of the box with half sizes `half` around `centre`, fronts outwards.
 pub fn box_faces(centre: DVec3, half: DVec3, material: usize) -> Vec<Mesh> {
     let faces = (0..3).flat_map(|axis| [-1.0, 1.0].map(|sign| (axis, sign)));
     faces
@@ -59,7 +60,7 @@ pub fn box_faces(centre: DVec3, half: DVec3, material: usize) -> Vec<Mesh> {
         .collect()
 }
 
-/// [`box_faces`] with fronts inwards.
+/// Makes [`box_faces`] with fronts inwards.
 pub fn box_around(centre: DVec3, half: DVec3, material: usize) -> Vec<Mesh> {
     let mut faces = box_faces(centre, half, material);
     for face in &mut faces {
@@ -68,7 +69,7 @@ pub fn box_around(centre: DVec3, half: DVec3, material: usize) -> Vec<Mesh> {
     faces
 }
 
-/// A sphere of 8 * 4^level facets inscribed in `radius`: an octahedron divided `level` times, fronts
+/// Makes a sphere of 8 * 4^level facets inscribed in `radius`: an octahedron divided `level` times, fronts
 /// outwards, flat.
 pub fn octahedron_sphere(centre: DVec3, radius: f64, level: u32, material: usize) -> Mesh {
     let mut triangles = Vec::new();
@@ -96,13 +97,13 @@ pub fn octahedron_sphere(centre: DVec3, radius: f64, level: u32, material: usize
     }
 }
 
-/// Corners of the triangles of a mesh, as they are uploaded.
+/// Returns the corners of the triangles of a mesh, as they are uploaded.
 pub fn triangles(mesh: &Mesh) -> Vec<[DVec3; 3]> {
     let corner = |index: u32| DVec3::from(mesh.positions[index as usize].map(f64::from));
     mesh.indices.chunks_exact(3).map(|t| [corner(t[0]), corner(t[1]), corner(t[2])]).collect()
 }
 
-/// Meshes where they are, one instance each, in the dark.
+/// Makes a scene of meshes in place, one instance each, without light.
 pub fn scene_of(meshes: Vec<Mesh>, materials: Vec<Material>) -> Scene {
     let instances = (0..meshes.len())
         .map(|mesh| Instance { name: format!("{mesh}"), mesh, world_from_mesh: DAffine3::IDENTITY })
@@ -110,7 +111,7 @@ pub fn scene_of(meshes: Vec<Mesh>, materials: Vec<Material>) -> Scene {
     Scene { name: "image truth".to_owned(), meshes, instances, materials, ..Scene::default() }
 }
 
-/// A pinhole camera with a full vertical angle of `fov_y` radians.
+/// Makes a pinhole camera with a full vertical angle of `fov_y` radians.
 pub fn looking(eye: DVec3, target: DVec3, fov_y: f32) -> Camera {
     let back = (eye - target).normalize();
     let right = back.any_orthonormal_vector();
@@ -124,7 +125,7 @@ pub fn looking(eye: DVec3, target: DVec3, fov_y: f32) -> Camera {
     }
 }
 
-/// A parallel view along `eye` to `target` of a square of twice `half_height` metres.
+/// Makes a parallel view along `eye` to `target` of a square of twice `half_height` metres.
 pub fn parallel(eye: DVec3, target: DVec3, half_height: f32) -> Camera {
     Camera { projection: Projection::Orthographic { half_height }, ..looking(eye, target, 1.0) }
 }

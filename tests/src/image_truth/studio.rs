@@ -1,4 +1,4 @@
-//! A scene on the device with a structure, a film and a camera.
+//! Studio: a scene on the device with a structure, a film and a camera.
 
 use std::ops::Range;
 
@@ -13,17 +13,17 @@ use rasray_systems::Spec;
 use super::Estimate;
 use crate::harness::Bench;
 
-/// Structures that rays are traced through.
+/// System through which rays are traced.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum System {
-    /// Every triangle: exact.
+    /// Brute force over every triangle, which is exact.
     BruteForce,
-    /// The A-buffer, of which rays meet fragments at the centres of this many cells along a side.
+    /// A-buffer with this many cells along a side, whose rays meet fragments at the centres of cells.
     Fragments(u32),
 }
 
 impl System {
-    /// Specification of the system.
+    /// Returns the specification of the system.
     fn spec(self) -> Spec {
         let spec = match self {
             Self::BruteForce => Spec::new("brute-force", "robust", []),
@@ -36,16 +36,16 @@ impl System {
     }
 }
 
-/// A rendered image.
+/// Rendered image.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Picture {
     /// Means of the samples, rows from the top.
     pub pixels: Vec<[f32; 3]>,
-    /// Samples that were not finite.
+    /// Number of samples that were not finite.
     pub non_finite: u32,
 }
 
-/// Everything that renders one scene.
+/// Studio with everything that renders one scene.
 pub struct Studio<'a> {
     bench: &'a Bench,
     stage: DeviceScene,
@@ -80,7 +80,7 @@ impl<'a> Studio<'a> {
         self.built.follow(self.bench.device(), &self.stage.scene, &[false]).expect("the build completes");
     }
 
-    /// Draws other random numbers from now on.
+    /// Changes the random numbers from now on.
     ///
     /// # Panics
     /// If the device fails.
@@ -89,7 +89,7 @@ impl<'a> Studio<'a> {
         self.stage.scene.update_camera(&self.view).expect("the frame can be written");
     }
 
-    /// Draws independent random numbers from now on, whose errors have a law.
+    /// Draws independent random numbers from now on, whose errors follow a law.
     ///
     /// # Panics
     /// If the device fails.
@@ -98,17 +98,17 @@ impl<'a> Studio<'a> {
         self.stage.scene.set_sampling(sampling).expect("the frame can be written");
     }
 
-    /// View that is rendered.
+    /// Returns the view that is rendered.
     pub fn view(&self) -> &View {
         &self.view
     }
 
-    /// The scene as uploaded.
+    /// Returns the scene as uploaded.
     pub fn scene(&self) -> &GpuScene {
         &self.stage.scene
     }
 
-    /// Paths; a number of bounces will do for the options.
+    /// Makes an integrator of paths; a number of bounces is enough as options.
     ///
     /// # Panics
     /// If the device fails.
@@ -116,7 +116,7 @@ impl<'a> Studio<'a> {
         Path::new(&self.desc(), options).expect("the integrator is made")
     }
 
-    /// Ambient occlusion within `range` metres.
+    /// Makes an integrator of ambient occlusion within `range` metres.
     ///
     /// # Panics
     /// If the device fails.
@@ -136,7 +136,7 @@ impl<'a> Studio<'a> {
         self.render_each(integrator, samples)
     }
 
-    /// Renders samples in the order given; an index that comes again repeats its random numbers.
+    /// Renders samples in the order given; a repeated index repeats its random numbers.
     ///
     /// # Panics
     /// If the device fails or a ray was not finished.
@@ -165,7 +165,7 @@ impl<'a> Studio<'a> {
         Picture { pixels, non_finite: faults.non_finite }
     }
 
-    /// The image's mean over `samples` samples per pixel, an even number.
+    /// Estimates the image's mean over `samples` samples per pixel, an even number.
     ///
     /// # Panics
     /// If the device fails or a sample was not finite.

@@ -2,7 +2,7 @@ use rasray_systems::StructureOption;
 
 use super::Subject;
 
-/// True if a subject takes an option's value, alone or together with a value of one of `others`.
+/// True if a subject accepts an option's value, alone or together with a value of one of `others`.
 pub fn takes(
     subject: &Subject,
     mut others: impl Iterator<Item = &'static StructureOption>,
@@ -15,9 +15,9 @@ pub fn takes(
         })
 }
 
-/// The options of a subject that may not change a hit, each with the values that it takes alone or together
-/// with one other choice of these: pages go with paged lists only. Left out are values that make a structure
-/// of another kind: a payload that conservative lists do not go with takes fragments alone.
+/// Returns the options of a subject that may not change a hit, each with the values that it accepts alone or
+/// together with one other of these options: pages go only with paged lists. Values that make a structure of
+/// another kind are left out: a payload that does not go with conservative lists takes fragments alone.
 pub fn speed_options(subject: &Subject) -> Vec<(&'static str, Vec<&'static str>)> {
     let mut rows = subject.spec.system().options();
     rows.retain(|row| !row.hits.may_change(subject.kind));
@@ -38,8 +38,8 @@ pub fn speed_options(subject: &Subject) -> Vec<(&'static str, Vec<&'static str>)
     options.collect()
 }
 
-/// Choices that pairs are made of; where values of an option exclude others', leaving it as it is comes
-/// first.
+/// Returns the choices for pairs. If values of an option exclude values of others, the first choice is to
+/// leave it unset.
 pub fn choices<'a>(
     subject: &Subject,
     options: &[(&'a str, Vec<&'a str>)],

@@ -1,8 +1,8 @@
-//! Holds every system against the registry's rules of options: which may change a hit.
+//! Checks every system against the registry's rules of options, which tell the options that may change a hit.
 //!
-//! Structures that find triangles give the same bits whatever their options. Structures that store
-//! fragments give the same bits under everything that only arranges what they store. Any other change is
-//! a bug. The rows are [`rasray_systems::OPTIONS`].
+//! Structures that find triangles give equal bits whatever their options. Structures that store fragments
+//! give equal bits under every option that only arranges their data. Any other change is a bug. The rows are
+//! [`rasray_systems::OPTIONS`].
 
 mod choices;
 mod pairs;

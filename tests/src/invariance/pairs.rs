@@ -1,18 +1,18 @@
-/// Values of two options, each the number of an option and of its value.
+/// Pair of values of two options, each the number of an option and of its value.
 pub type Pair = [(usize, usize); 2];
 
-/// Choices of values that try options in pairs.
+/// Choices of values that cover options in pairs.
 #[derive(Clone, Debug)]
 pub struct Pairs {
-    /// One value index an option.
+    /// Choices, each with one value index per option.
     pub rows: Vec<Vec<usize>>,
-    /// Pairs that no row was found for.
+    /// Pairs for which no choice was found.
     pub refused: Vec<Pair>,
 }
 
-/// Choices in which every pair of values of two options occurs that goes with the first values of the others,
-/// or with all but two of them. `values` says how many values each option has, `allowed` whether all values
-/// of a choice go together. Greedy, always the same for the same input.
+/// Makes choices that contain every pair of values of two options which goes with the first values of the
+/// other options, or of all but two of them. `values` gives the number of values of each option; `allowed`
+/// tells whether all values of a choice go together. The algorithm is greedy and deterministic.
 pub fn pairwise(values: &[usize], allowed: impl Fn(&[usize]) -> bool) -> Pairs {
     let mut open: Vec<Pair> = Vec::new();
     for (a, &of_a) in values.iter().enumerate() {
@@ -33,14 +33,15 @@ pub fn pairwise(values: &[usize], allowed: impl Fn(&[usize]) -> bool) -> Pairs {
     Pairs { rows, refused }
 }
 
-/// A choice with a pair in it that closes as many other open ones as it can; absent if none is allowed.
+/// Returns a choice that contains a pair and closes as many other open pairs as possible; `None` if none is
+/// allowed.
 fn filled(
     values: &[usize],
     open: &[Pair],
     pair: Pair,
     allowed: &impl Fn(&[usize]) -> bool,
 ) -> Option<Vec<usize>> {
-    // An option not chosen yet has its first value, which leaves options that exclude others as they are.
+    // An option not chosen yet has its first value, which keeps options that exclude others unset.
     let mut row = vec![0; values.len()];
     let mut chosen: Vec<(usize, usize)> = pair.to_vec();
     for (option, value) in pair {
@@ -119,14 +120,15 @@ mod tests {
             assert_eq!((uncovered(values, &rows), refused.len()), (0, 0), "{values:?}");
             assert!(rows.len() <= 2 * 7 + 16, "{} rows for {values:?}", rows.len());
         }
-        // A row less leaves pairs out.
+        // One row less leaves pairs out.
         let rows = pairwise(&[2, 2, 2], |_| true).rows;
         assert!(uncovered(&[2, 2, 2], &rows[1..]) > 0);
     }
 
     #[test]
     fn only_pairs_that_go_with_nothing_are_left_out() {
-        // The second value of the first option requires that of the second and excludes that of the third.
+        // The second value of the first option requires the second value of the second and excludes that of
+        // the third.
         let allowed = |row: &[usize]| row[0] == 0 || (row[1] == 1 && row[2] == 0);
         let Pairs { rows, refused } = pairwise(&[2, 2, 2, 3], allowed);
         assert!(rows.iter().all(|row| allowed(row)), "{rows:?}");

@@ -1,4 +1,4 @@
-//! The scene, the rays and the comparison that options and motions are tried with.
+//! Scene, rays and comparison with which options and motions are tested.
 
 use rasray_ads::Ray;
 
@@ -11,25 +11,26 @@ use crate::tier::is_full;
 /// Centre of views.
 pub const EYE: [f32; 3] = [0.125, -0.25, 0.375];
 
-/// Rays per comparison: in the full tier, and in every run.
+/// Returns the number of rays per comparison, by tier.
 pub fn ray_count() -> usize {
     if is_full() { 2000 } else { 400 }
 }
 
-/// Scattered layers, a sphere, and a room around them. `twins` adds triangles that coincide with others.
+/// Makes scattered layers, a sphere, and a room around them. `twins` adds triangles that coincide with
+/// others.
 pub fn scene(twins: bool) -> Vec<Triangle> {
     let triangles = layers_and_sphere(6);
     if twins { with_twins(triangles) } else { triangles }
 }
 
-/// Rays of every sort.
+/// Makes rays of every kind.
 pub fn rays(count: usize) -> Vec<Ray> {
     let mut random = Random::new(11);
     (0..count)
         .map(|index| {
             let origin = random.point(-6.0, 6.0);
             match index % 8 {
-                // Along an axis, with a limited range, from the views' centre.
+                // This ray goes along an axis, with a limited range, from the views' centre.
                 0 => Ray::new(origin, along_axis(index / 8)),
                 1 => Ray { t_max: 2.0, t_min: 0.5, ..Ray::new(origin, random.direction()) },
                 2 => Ray::new(EYE, random.direction()),
@@ -39,15 +40,15 @@ pub fn rays(count: usize) -> Vec<Ray> {
         .collect()
 }
 
-/// Rays in general position, for scenes that are moved about.
+/// Makes rays in general position, for scenes that are moved about.
 pub fn general_rays(count: usize) -> Vec<Ray> {
     Random::new(23).rays(count, -6.0, 6.0)
 }
 
-/// Asserts that two answers to the same rays are the same to the bit.
+/// Asserts that two answers to the same rays are equal to the bit.
 ///
 /// # Panics
-/// They are not: the first ray that differs is named.
+/// They differ: the first ray that differs is named.
 pub fn assert_same(what: &str, rays: &[Ray], expected: &Answers, found: &Answers) {
     if let Some(ray) = first_difference(expected, found) {
         panic!(

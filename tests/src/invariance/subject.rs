@@ -5,26 +5,26 @@ use crate::harness::{Bench, is_offered};
 use crate::shapes::Triangle;
 use crate::tier::{in_turn, is_full};
 
-/// A system, a preset, and options over it by name and value.
+/// Row: a system, a preset, and options that override it, by name and value.
 pub type Row = (&'static str, &'static str, &'static [(&'static str, &'static str)]);
 
-/// Cells along a side of views.
+/// Number of cells along a side of views.
 const CELLS: &str = "24";
 
-/// Options of presets in addition to the number of cells and to those that need no scene.
+/// Options of presets in addition to the number of cells and to the options that avoid the need for a scene.
 const BESIDE: &[Row] = &[
     ("mmrt", "robust", &[("capacity", "40000")]),
     ("mmrt", "published", &[("capacity", "40000")]),
     ("selective", "robust", &[("grid", "12"), ("storage", "paged")]),
 ];
 
-/// Presets with options that make another structure, or one in which other options decide.
+/// Presets with options that make another structure, or a structure in which other options decide.
 const MORE: &[Row] = &[
     ("bricks", "robust", &[("views", "cube"), ("grid", "24")]),
     ("mmrt", "robust", &[("coverage", "exact"), ("resolution", "24"), ("capacity", "40000")]),
 ];
 
-/// More of them, in the full tier only.
+/// More such presets, in the full tier only.
 const LARGE: &[Row] = &[
     ("ldc", "robust", &[("accept", "plane"), ("resolution", "16")]),
     ("hu", "robust", &[("coverage", "exact"), ("resolution", "16")]),
@@ -32,35 +32,35 @@ const LARGE: &[Row] = &[
     ("mmrt", "robust", &[("payload", "plane"), ("resolution", "24"), ("capacity", "40000")]),
 ];
 
-/// Rows in addition to the presets of the registry.
+/// Returns the rows in addition to the presets of the registry.
 fn more() -> impl Iterator<Item = &'static Row> {
     MORE.iter().chain(if is_full() { LARGE } else { &[] })
 }
 
-/// A preset of a system with its options for tests.
+/// Subject: a preset of a system with its options for tests.
 #[derive(Clone, Debug)]
 pub struct Subject {
     /// Specification of the structure.
     pub spec: Spec,
-    /// Kind of its hits.
+    /// Kind of the structure's hits.
     pub kind: StructureKind,
 }
 
 /// Answers to all rays, bit for bit.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Answers {
-    /// t, primitive, and the barycentrics where hits are on triangles.
+    /// Bits of t, of the primitive, and of the barycentrics if hits are on triangles.
     pub closest: Vec<[u32; 4]>,
-    /// True for each ray that hits anything.
+    /// Flags of the rays, true for each ray that hits anything.
     pub occluded: Vec<bool>,
 }
 
 impl Subject {
-    /// Every preset of every system of the registry, and the presets of the registry with options that make
-    /// more of them. Those that the device of the tests cannot have are left out, which is said.
+    /// Returns every preset of every system of the registry, and presets with options that make another
+    /// structure of them. Subjects that the device of the tests cannot have are left out, which is reported.
     ///
     /// # Panics
-    /// If a preset is none.
+    /// If a name is not that of a preset.
     pub fn all() -> Vec<Self> {
         let presets =
             SYSTEMS.iter().flat_map(|system| system.presets.iter().map(move |preset| (system, preset)));
@@ -85,8 +85,8 @@ impl Subject {
             .collect()
     }
 
-    /// As [`all`](Self::all), but in the quick tier one of each system, by turns: for tests whose kernels no
-    /// other test has.
+    /// Returns subjects as [`all`](Self::all), but in the quick tier one of each system, by turns: for tests
+    /// whose kernels no other test has.
     pub fn by_turns() -> Vec<Self> {
         let all = Self::all();
         let of_system = |system: &System| {
@@ -97,7 +97,7 @@ impl Subject {
         own.iter().enumerate().flat_map(|(turn, own)| in_turn(own, turn).to_vec()).collect()
     }
 
-    /// `system preset`, with the options that make it one of several of that name.
+    /// Returns `system preset`, with the options that distinguish it from others of that name.
     pub fn name(&self) -> String {
         let (system, preset) = (self.spec.system().name, self.spec.preset().name());
         let given = |(_, _, options): &&Row| {
@@ -110,7 +110,7 @@ impl Subject {
         )
     }
 
-    /// This subject with other values of options; absent where the system does not take them.
+    /// Returns this subject with other values of options; `None` if the system does not accept them.
     pub fn with(&self, options: &[(&str, &str)]) -> Option<Self> {
         let given = options.iter().map(|(option, value)| ((*option).to_owned(), (*value).to_owned()));
         let spec = self.spec.with_options(given).ok()?;
@@ -126,7 +126,7 @@ impl Subject {
         self.answers_of(bench, eye, structure.as_mut(), rays)
     }
 
-    /// The structure over a geometry, not built.
+    /// Makes the structure over a geometry, without a build.
     ///
     /// # Panics
     /// If the device fails.
@@ -152,14 +152,14 @@ impl Subject {
             StructureKind::Primitive | StructureKind::LossyPrimitive => {
                 [hit.t.to_bits(), hit.primitive, hit.a.to_bits(), hit.b.to_bits()]
             }
-            // a and b say where a fragment lies, which is not part of the answer.
+            // The barycentrics a and b tell the place of a fragment, which is not part of the answer.
             StructureKind::Fragment => [hit.t.to_bits(), hit.primitive, 0, 0],
         };
         Answers { closest: closest.iter().map(key).collect(), occluded }
     }
 }
 
-/// The first ray whose answers differ.
+/// Returns the index of the first ray whose answers differ.
 pub fn first_difference(left: &Answers, right: &Answers) -> Option<usize> {
     assert_eq!((left.closest.len(), left.occluded.len()), (right.closest.len(), right.occluded.len()));
     let closest = left.closest.iter().zip(&right.closest).position(|(left, right)| left != right);
