@@ -1,5 +1,5 @@
-//! Records the commit the command was built from, for reports. Without git, or outside a checkout,
-//! nothing is recorded and reports leave the field out.
+//! Build script that records the commit that the command is built from, for reports. Without git, or outside
+//! a checkout, no commit is recorded and reports leave the field out.
 
 use std::process::Command;
 

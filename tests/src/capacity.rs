@@ -64,9 +64,9 @@ pub fn check_capacities_of(
 }
 
 /// Builds a structure with capacity for none, one, half, all but one and all of the counted entries; `sizes`
-/// are its pools with capacity for that many. Entries without capacity are counted, and the pool grows by the
-/// count; no build is complete before that, and the count is enough. The answers of complete builds are those
-/// of a build in ample capacity. Returns the number of answers, which is more than ten.
+/// returns its pools with capacity for that many. Entries without capacity are counted, and the pool grows by
+/// the count; no build is complete before that, and the count is enough. The answers of complete builds are
+/// those of a build in ample capacity. Returns the number of counted entries, which is more than ten.
 ///
 /// # Panics
 /// If the device fails, or any of these conditions does not hold.

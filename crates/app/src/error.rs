@@ -1,4 +1,4 @@
-//! Everything that ends the command early, with its exit code.
+//! Errors that end the command early, with their exit codes.
 
 use crate::hints;
 use rasray_experiment::ExperimentError;
@@ -18,62 +18,61 @@ pub const EXIT_TARGET: u8 = 1;
 pub const EXIT_USAGE: u8 = 2;
 /// Exit code of a missing, unsuitable or failing device.
 pub const EXIT_DEVICE: u8 = 3;
-/// Exit code of a result that could not be kept whole: it could not be written, or what was traced
-/// was incomplete.
+/// Exit code of a result that could not be kept whole: it could not be written, or the trace was incomplete.
 pub const EXIT_REFUSED: u8 = 4;
 /// Exit code of a defect: no input, option or device is at fault.
 pub const EXIT_DEFECT: u8 = 5;
 /// Exit code of a run that a signal stopped, whether or not a partial result was written.
 pub const EXIT_INTERRUPTED: u8 = 130;
 
-/// Why the command ended early. Every variant says what is wrong and what to do about it.
+/// Error that ended the command early. Every variant describes the fault and the remedy.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum AppError {
-    /// The command line asks for something that cannot be. Exit code 2.
+    /// The command line asks for something impossible. Exit code 2.
     #[error("{message}")]
     Usage {
-        /// Fault of the command line.
+        /// Description of the fault.
         message: String,
         /// Advice, in one sentence; may be empty.
         help: String,
     },
-    /// A file cannot be read, or an output cannot be put where it was asked for. Exit code 2.
+    /// A file cannot be read, or an output cannot be put in its place. Exit code 2.
     #[error("{}: {message}", path.display())]
     Input {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
-        /// Fault of the file.
+        /// Description of the fault.
         message: String,
         /// Advice, in one sentence; may be empty.
         help: String,
     },
-    /// An experiment gave no result. Exit code 3 where the device is missing, lacks something required or
-    /// failed, 4 where its result is not whole, 5 where that is a defect, else 2.
+    /// An experiment gave no result. Exit code 3 if the device is missing, lacks a required feature or
+    /// failed, 4 if the result is not whole, 5 for a defect, otherwise 2.
     #[error("{}", hints::message(.0))]
     Experiment(#[from] ExperimentError),
     /// A file gave no rays or hits. Exit code 2.
     #[error(transparent)]
     Rays(#[from] FileError),
-    /// There is no window, or it cannot be drawn. Exit codes as of experiments.
+    /// There is no window, or it cannot be drawn. Exit codes as for experiments.
     #[cfg(feature = "viewer")]
     #[error(transparent)]
     Viewer(rasray_viewer::ViewerError),
-    /// The system does not let signals be handled. Exit code 2.
+    /// The operating system refuses handlers of signals. Exit code 2.
     #[error("signals cannot be handled: {0}")]
     Signals(#[source] io::Error),
-    /// Another error, with its subject. Exit code as without.
+    /// Another error, with its subject. The exit code is that of the other error.
     #[error("{what}: {source}")]
     About {
-        /// A frame, or the comparison of a plan.
+        /// Subject: a frame, or the comparison of a plan.
         what: String,
-        /// The error without its subject.
+        /// Error without its subject.
         source: Box<Self>,
     },
-    /// A result exists that would have lost data had it been kept. Exit code 4.
+    /// A result would have lost data if it had been kept. Exit code 4.
     #[error("{message}")]
     Refused {
-        /// Results that would have been lost, and where.
+        /// Results that would have been lost, and their place.
         message: String,
         /// Advice, in one sentence; may be empty.
         help: String,
@@ -81,7 +80,7 @@ pub enum AppError {
     /// A hard case's target was not met, and `--check` asked for it. Exit code 1.
     #[error("{message}")]
     Target {
-        /// The target.
+        /// Target that was not met.
         message: String,
         /// Advice, in one sentence; may be empty.
         help: String,
@@ -118,27 +117,27 @@ impl AppError {
         Self::About { what: what.to_owned(), source: Box::new(self) }
     }
 
-    /// A usage error.
+    /// Makes a usage error.
     pub fn usage(message: impl Into<String>, help: impl Into<String>) -> Self {
         Self::Usage { message: message.into(), help: help.into() }
     }
 
-    /// An error about a file that is read, or about the place of an output.
+    /// Makes an error about a file that is read, or about the place of an output.
     pub fn input(path: &Path, message: impl Display, help: impl Into<String>) -> Self {
         Self::Input { path: path.to_owned(), message: message.to_string(), help: help.into() }
     }
 
-    /// A result that is not kept because it is not whole.
+    /// Makes the error of a result that is not kept because it is not whole.
     pub fn refused(message: impl Into<String>, help: impl Into<String>) -> Self {
         Self::Refused { message: message.into(), help: help.into() }
     }
 
-    /// A run stopped by a signal.
+    /// Makes the error of a run that a signal stopped.
     pub fn interrupted(message: impl Into<String>, help: impl Into<String>) -> Self {
         Self::Interrupted { message: message.into(), help: help.into() }
     }
 
-    /// The exit code of the command.
+    /// Returns the exit code of the command.
     pub fn exit_code(&self) -> u8 {
         match self {
             Self::Usage { .. } | Self::Input { .. } | Self::Rays(_) | Self::Signals(_) => EXIT_USAGE,
@@ -152,7 +151,7 @@ impl AppError {
         }
     }
 
-    /// Advice on the command line, in one sentence; may be empty.
+    /// Returns the advice on the command line, in one sentence; may be empty.
     pub fn help(&self) -> Cow<'_, str> {
         match self {
             Self::Usage { help, .. }
@@ -171,7 +170,7 @@ impl AppError {
         }
     }
 
-    /// The two lines that stderr gets: `error: …` and `help: …`, each without a line break inside.
+    /// Returns the two lines for stderr: `error: …` and `help: …`, each without a line break inside.
     pub fn lines(&self) -> String {
         let word = if self.exit_code() == EXIT_INTERRUPTED { "interrupted" } else { "error" };
         let mut lines = format!("{word}: {}\n", one_line(&self.to_string()));

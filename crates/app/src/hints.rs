@@ -1,4 +1,4 @@
-//! Errors of libraries on the command line: advice by options of the command, and exit codes.
+//! Hints for errors of libraries: advice by options of the command, and exit codes.
 
 use crate::error::EXIT_REFUSED;
 use rasray_denoise::DenoiseError;
@@ -23,17 +23,17 @@ use exit_codes::code_of_tracer;
 pub(crate) use exit_codes::code_of_viewer;
 pub(crate) use exit_codes::exit_code;
 
-/// Advice where something does not fit a device, or fails there.
+/// Advice if something does not fit a device, or fails there.
 const SMALLER: &str = "try a smaller --resolution or --size, or another --device";
 
-/// Advice for an image, a film or its rays: no option of structures makes it smaller.
+/// Advice for an image, a film or its rays, which no option of structures makes smaller.
 const SMALLER_IMAGE: &str = "try a smaller --size, or another --device";
 
-/// Advice for the scene's own tables: no option of structures or images makes them smaller.
+/// Advice for the scene's own tables, which no option of structures or images makes smaller.
 const SMALLER_SCENE: &str =
     "try a scene with fewer triangles and images, a smaller map for --environment, or another --device";
 
-/// Advice for what neither input nor device is at fault for; its exit code is
+/// Advice for an error that neither input nor device causes; its exit code is
 /// [`EXIT_DEFECT`](crate::error::EXIT_DEFECT).
 const DEFECT: &str = "this is a defect; please report it with the command line";
 
@@ -48,16 +48,16 @@ const DAMAGED: &str = "the file is damaged or breaks its format: correct it, or 
 
 const PLACE_CAMERA: &str = "place the camera by --eye and --target";
 
-/// Writes options as on the command line; libraries write them `` `views` cube ``.
+/// Writes options in the form of the command line; libraries write them `` `views` cube ``.
 pub(crate) fn with_flags(text: &str) -> String {
     let parts = text.split('`').enumerate();
     parts.map(|(place, part)| if place % 2 == 1 { format!("--{part}") } else { part.to_owned() }).collect()
 }
 
-/// Message of an error, with options written as on the command line.
+/// Returns the message of an error, with options in the form of the command line.
 pub(crate) fn message(error: &ExperimentError) -> String {
     match error {
-        // Each of these begins with the name of an option.
+        // Each of these messages begins with the name of an option.
         ExperimentError::OptionNeedsFeature { .. }
         | ExperimentError::Pinhole { .. }
         | ExperimentError::NoFirstHits { .. }
@@ -84,7 +84,7 @@ pub(crate) fn message(error: &ExperimentError) -> String {
     }
 }
 
-/// Advice for an error; empty where the message already gives it.
+/// Returns the advice for an error; empty if the message already gives it.
 pub(crate) fn help(error: &ExperimentError) -> Cow<'static, str> {
     match error {
         ExperimentError::Selection(error) => help_of_selection(error),
@@ -150,7 +150,7 @@ fn fixed_help(error: &ExperimentError) -> &'static str {
     }
 }
 
-/// Advice to ask for less, unless the call itself was wrong.
+/// Returns the advice to ask for less, unless the call itself was wrong.
 fn help_of_gpu(error: &GpuError, smaller: &'static str) -> &'static str {
     match error {
         GpuError::InvalidUse { .. }
@@ -189,7 +189,7 @@ fn help_of_tables(error: &GpuSceneError) -> &'static str {
 
 fn help_of_integrator(error: &IntegratorError) -> &'static str {
     match error {
-        // The message says what is possible.
+        // The message lists the possible values.
         IntegratorError::Value(_) => "",
         IntegratorError::PhotonBytes { .. } => "choose fewer --photon-paths, or fewer --bounces",
         IntegratorError::Crowded { .. } => "choose a smaller --radius, or fewer --photon-paths",
@@ -272,12 +272,12 @@ fn help_of_selection(error: &SelectionError) -> Cow<'static, str> {
     }
 }
 
-/// With commas between them.
+/// Joins names with commas.
 fn names(systems: impl IntoIterator<Item = &'static System>) -> String {
     systems.into_iter().map(|system| system.name).collect::<Vec<_>>().join(", ")
 }
 
-/// Systems that have an option, in words.
+/// Describes the systems that have an option.
 fn who_has(option: &str) -> String {
     match names(SYSTEMS.iter().filter(|system| system.has(option))).as_str() {
         "" => "no system has it".to_owned(),
@@ -327,7 +327,7 @@ fn kinds_of_scenes() -> String {
     )
 }
 
-/// Advice for a scene that cannot be read. Messages that already end in advice get none.
+/// Returns the advice for a scene that cannot be read; empty for messages that already end in advice.
 fn help_of_scene(error: &SceneError) -> &'static str {
     match error {
         SceneError::Read { .. } => "check the name and that you may read the file",
@@ -350,7 +350,7 @@ fn help_of_scene(error: &SceneError) -> &'static str {
     }
 }
 
-/// Advice for a file of rays or hits that cannot be read.
+/// Returns the advice for a file of rays or hits that cannot be read.
 pub(crate) fn help_of_rays(error: &FileError) -> &'static str {
     match error {
         FileError::Unreadable { .. } => "check the name and that you may read the file",
@@ -372,12 +372,12 @@ pub(crate) fn help_of_rays(error: &FileError) -> &'static str {
     }
 }
 
-/// Message of a failure of `--denoise`.
+/// Returns the message of a failure of `--denoise`.
 pub(crate) fn message_of_denoiser(error: &DenoiseError) -> String {
     format!("--denoise: {error}")
 }
 
-/// Advice for a failure of `--denoise`.
+/// Returns the advice for a failure of `--denoise`.
 pub(crate) fn help_of_denoiser(error: &DenoiseError) -> &'static str {
     match error {
         DenoiseError::Missing { .. } | DenoiseError::Unsuitable { .. } => {
@@ -388,7 +388,7 @@ pub(crate) fn help_of_denoiser(error: &DenoiseError) -> &'static str {
     }
 }
 
-/// Advice for a window that cannot be, or shows no picture.
+/// Returns the advice for a window that cannot be opened, or shows no picture.
 #[cfg(feature = "viewer")]
 pub(crate) fn help_of_viewer(error: &rasray_viewer::ViewerError) -> Cow<'static, str> {
     use rasray_viewer::ViewerError;

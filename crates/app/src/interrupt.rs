@@ -1,10 +1,10 @@
-//! SIGINT, SIGTERM and SIGHUP: the first asks for an early end with a valid result, a second ends at once.
-//! Where nothing is finished that could be kept, the first ends as well, after [`GRACE`]: a build, a compiler
-//! or a wave may take long.
+//! Handling of SIGINT, SIGTERM and SIGHUP: the first signal asks for an early end with a valid result, a
+//! second one ends the process at once. If there is no finished part that could be kept, the first signal
+//! ends the process as well, after [`GRACE`]: a build, a compiler or a wave may take long.
 //!
-//! A terminal that goes away may send SIGHUP twice, itself and by its shell, and systemd sends one behind
-//! SIGTERM: it is never a second signal. Where it is ignored from the start, as under nohup, it stays
-//! ignored.
+//! A terminal that goes away may send SIGHUP twice, itself and by its shell, and systemd sends one after
+//! SIGTERM: therefore SIGHUP never counts as a second signal. If SIGHUP is ignored from the start, as under
+//! nohup, it stays ignored.
 
 use crate::error::EXIT_INTERRUPTED;
 use crate::terminal;
@@ -15,21 +15,21 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError, mpsc};
 use std::time::{Duration, Instant};
 use tempfile::NamedTempFile;
 
-/// From the first signal to the end, where nothing is finished by then.
+/// Time from the first signal to the end, if nothing is finished by then.
 const GRACE: Duration = Duration::from_secs(1);
 
-/// Longest wait of an end for its message to be taken. Who reads stderr may have stopped to, and whatever
-/// else writes there then waits with the stream locked.
+/// Longest time that the end waits for its message to be written. The reader of stderr may have stopped
+/// reading, and another writer to stderr then waits with the stream locked.
 const LAST_WORDS: Duration = Duration::from_millis(200);
 
-/// Message of the end where nothing was finished.
+/// Message of an end before anything was finished.
 const NOTHING: &str = "interrupted: stopped before anything was finished; nothing was written\n";
 
-/// Request of a signal for an early end, and the unfinished files.
+/// Request of a signal for an early end, and the list of unfinished files.
 #[derive(Clone, Debug, Default)]
 pub struct Interrupt {
     requested: Arc<AtomicBool>,
-    /// True if something is finished that an early end keeps.
+    /// True if there is a finished part that an early end keeps.
     keeps: Arc<AtomicBool>,
     unfinished: Arc<Mutex<Vec<PathBuf>>>,
 }
@@ -37,9 +37,10 @@ pub struct Interrupt {
 /// True if the process was started with a signal ignored.
 fn is_ignored(signal: i32) -> bool {
     let mut found = std::mem::MaybeUninit::<libc::sigaction>::uninit();
-    // SAFETY: without a new action `sigaction` only writes the present one to `found`, which has room for it.
+    // SAFETY: without a new action `sigaction` only writes the present action to `found`, which has room for
+    // it.
     let answer = unsafe { libc::sigaction(signal, std::ptr::null(), found.as_mut_ptr()) };
-    // SAFETY: it was written where the call succeeded.
+    // SAFETY: `found` was written if the call succeeded.
     answer == 0 && unsafe { found.assume_init() }.sa_sigaction == libc::SIG_IGN
 }
 
@@ -51,7 +52,7 @@ impl Interrupt {
     /// Takes over SIGINT and SIGTERM, and SIGHUP unless it is ignored, for the rest of the process.
     ///
     /// # Errors
-    /// The system refuses a handler.
+    /// The operating system refuses a handler.
     pub fn install() -> std::io::Result<Self> {
         let interrupt = Self::default();
         let mut signals = signal_hook::iterator::Signals::new([SIGINT, SIGTERM])?;
@@ -71,7 +72,7 @@ impl Interrupt {
                     watched.leave();
                 }
                 let stopping = watched.clone();
-                // This thread stays free for the second signal, if there can be another.
+                // This thread stays free for the second signal, if another thread can be made.
                 let other = std::thread::Builder::new().name("stopping".to_owned());
                 if other.spawn(move || stopping.stop()).is_err() {
                     watched.stop();
@@ -81,7 +82,7 @@ impl Interrupt {
         Ok(interrupt)
     }
 
-    /// Ends the process after a while, unless something is finished that the work will write.
+    /// Ends the process after [`GRACE`], unless there is a finished part that the work will write.
     fn stop(&self) {
         let deadline = Instant::now() + GRACE;
         let keeps = || self.keeps.load(Ordering::SeqCst);
@@ -98,7 +99,7 @@ impl Interrupt {
         }
     }
 
-    /// From now on something is finished: an early end waits for it to be written.
+    /// Notes that there is a finished part: an early end waits until it is written.
     pub(crate) fn keep(&self) {
         self.keeps.store(true, Ordering::SeqCst);
     }
@@ -108,8 +109,8 @@ impl Interrupt {
         self.requested.load(Ordering::SeqCst)
     }
 
-    /// Makes a file that is unfinished until the guard is dropped: an end at once removes it. No end comes
-    /// between the file and its guard.
+    /// Makes a file that is unfinished until the guard is dropped: an immediate end removes it. No end occurs
+    /// between the creation of the file and of its guard.
     ///
     /// # Errors
     /// The error of `make`.
@@ -124,32 +125,32 @@ impl Interrupt {
         Ok((Unfinished { interrupt: self, path }, file))
     }
 
-    /// Ends the process without destructors, which would wait for the device. The lock is kept to the end, so
+    /// Ends the process without destructors, which would wait for the device. The lock is held to the end, so
     /// that no further file can be begun.
     fn leave(&self) -> ! {
         let files = locked(&self.unfinished);
         for path in files.iter() {
-            // A file that is not there yet, or not there any more, needs no removal.
+            // A file that is not there yet, or no longer, needs no removal.
             _ = std::fs::remove_file(path);
         }
         signal_hook::low_level::exit(EXIT_INTERRUPTED.into())
     }
 }
 
-/// Says something, and goes on when it is said or after [`LAST_WORDS`].
+/// Writes a message, and returns when it is written or after [`LAST_WORDS`].
 fn say(words: impl FnOnce() + Send + 'static) {
     let (said, is_said) = mpsc::channel();
     let speaker = std::thread::Builder::new().name("last words".to_owned()).spawn(move || {
         words();
         _ = said.send(());
     });
-    // Without a thread nothing is said: the end is worth more.
+    // Without a thread no message is written: the end matters more.
     if speaker.is_ok() {
         _ = is_said.recv_timeout(LAST_WORDS);
     }
 }
 
-/// Keeps a file marked as unfinished.
+/// Guard that marks a file as unfinished.
 #[derive(Debug)]
 pub(crate) struct Unfinished<'a> {
     interrupt: &'a Interrupt,

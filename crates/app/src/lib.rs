@@ -29,11 +29,11 @@ use rasray_experiment::OpenBackend;
 use std::ffi::OsString;
 use terminal::Talk;
 
-/// Runs the command: program name first in `arguments`, `open` makes what renders. Returns the exit code: 0
-/// done, 1 missed targets with `--check`, 2 bad input or usage, 3 device, 4 refused to lose data, 130 stopped
-/// by a signal.
+/// Runs the command: program name first in `arguments`; `open` makes the backend that renders. Returns the
+/// exit code: 0 done, 1 missed targets with `--check`, 2 bad input or usage, 3 device, 4 refused to lose
+/// data, 130 stopped by a signal.
 ///
-/// Takes over SIGINT, SIGTERM and SIGHUP and writes to stdout and stderr; call it once in a process.
+/// Takes over SIGINT, SIGTERM and SIGHUP and writes to stdout and stderr; call it once per process.
 pub fn run(arguments: impl IntoIterator<Item = OsString>, open: &mut OpenBackend<'_>) -> u8 {
     let arguments: Vec<_> = arguments.into_iter().collect();
     let words = arguments.iter().skip(1).map(|word| word.to_string_lossy());

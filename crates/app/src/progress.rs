@@ -1,5 +1,5 @@
-//! Progress of work, on stderr: a line that moves on a terminal, else a line now and then where something
-//! takes long. Nothing where quiet was asked for.
+//! Progress of work on stderr: a line that is updated on a terminal, otherwise an occasional line for work
+//! that takes long. Nothing is shown if quiet was asked for.
 
 use crate::terminal::{self, Talk};
 use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressStyle};
@@ -9,10 +9,11 @@ use std::sync::mpsc::{self, RecvTimeoutError, Sender};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
-/// After so long without a terminal a task is told of; then after twice that, and so on.
+/// Time after which a task is first reported without a terminal; later reports follow after twice that, and
+/// so on.
 const FIRST_SIGN: Duration = Duration::from_secs(10);
 
-/// Shows what is being done, how far it is and how long it will take.
+/// Line that shows the current task, its progress and the remaining time.
 #[derive(Debug)]
 pub struct ProgressLine {
     bar: ProgressBar,
@@ -22,7 +23,7 @@ pub struct ProgressLine {
 }
 
 impl ProgressLine {
-    /// A line that shows itself with the first progress.
+    /// Makes a line that appears with the first progress.
     pub fn new() -> Self {
         let says = terminal::says(Talk::Usual);
         let target = if says { ProgressDrawTarget::stderr_with_hz(8) } else { ProgressDrawTarget::hidden() };
@@ -35,7 +36,7 @@ impl ProgressLine {
         }
     }
 
-    /// Shows how far the work is.
+    /// Shows the progress of the work.
     pub fn show(&mut self, progress: Progress<'_>) {
         let task = rasray_report::one_line(&format!("{} ({})", progress.task, progress.unit));
         if let Some(signs) = &self.signs {
@@ -44,7 +45,7 @@ impl ProgressLine {
         let begins = self.task != task;
         if begins {
             self.task = task;
-            // Elapsed time belongs to one task.
+            // The elapsed time belongs to one task.
             self.bar.reset();
             self.bar.enable_steady_tick(Duration::from_millis(250));
         }
@@ -61,7 +62,7 @@ impl ProgressLine {
         self.bar.set_position(progress.done);
     }
 
-    /// Takes the line away.
+    /// Removes the line.
     pub fn finish(self) {
         self.bar.finish_and_clear();
     }
@@ -73,7 +74,7 @@ impl Default for ProgressLine {
     }
 }
 
-/// Does work of which nothing is known but that it goes on: shows what it is.
+/// Does work of unknown length, and shows its name meanwhile.
 pub(crate) fn during<T>(task: &str, unit: &str, work: impl FnOnce() -> T) -> T {
     let mut line = ProgressLine::new();
     line.show(Progress { task, done: 0, total: 0, unit });
@@ -82,18 +83,18 @@ pub(crate) fn during<T>(task: &str, unit: &str, work: impl FnOnce() -> T) -> T {
     result
 }
 
-/// Work that is counted, and since when: tasks with one unit and one total are parts of the same work.
+/// Counted work and its beginning: tasks with equal unit and total are parts of one piece of work.
 #[derive(Debug, Default)]
 struct Count {
     unit: String,
     total: u64,
-    /// When it began, and what was done by then.
+    /// Time of the beginning, and the number of units done by then.
     begun: Option<(Instant, u64)>,
 }
 
 impl Count {
-    /// Time that the work will take from `now` on, at the pace so far; absent before the first of it is done,
-    /// and when all is.
+    /// Returns the time that the work will take from `now` on, at the pace so far; `None` before the first
+    /// unit is done, and after the last.
     fn time_left(&mut self, progress: Progress<'_>, now: Instant) -> Option<Duration> {
         let Progress { done, total, unit, .. } = progress;
         if total == 0 {
@@ -106,7 +107,7 @@ impl Count {
         };
         let made = done - before;
         let left = total.saturating_sub(done);
-        // Something is left to do: never less than a second.
+        // Some work is left, so the result is at least a second.
         let seconds = || ((now - begun).as_secs_f64() * left as f64 / made as f64).ceil().max(1.0);
         (made > 0 && left > 0).then(|| Duration::from_secs(seconds() as u64))
     }
@@ -121,10 +122,10 @@ fn style(bounded: bool) -> ProgressStyle {
     ProgressStyle::with_template(template).expect("the templates are constants that a test reads")
 }
 
-/// Tells of tasks that take long, from a thread of its own, since the work may not come back for minutes.
+/// Reporter of tasks that take long, in a thread of its own, since the work may not return for minutes.
 #[derive(Debug)]
 struct Signs {
-    /// Gone when there are no more; the thread ends with it.
+    /// Sender, dropped when there is no more progress, which ends the thread.
     sender: Option<Sender<Sign>>,
     thread: Option<JoinHandle<()>>,
 }
@@ -148,7 +149,8 @@ impl Sign {
 }
 
 impl Signs {
-    /// Calls `tell` once a task has taken `first`, and again after each doubling of that.
+    /// Makes a reporter that calls `tell` once a task has taken `first`, and again after each doubling of
+    /// that.
     fn new(first: Duration, tell: impl Fn(&str) + Send + 'static) -> Self {
         let (sender, receiver) = mpsc::channel::<Sign>();
         let watch = move || {
@@ -171,14 +173,14 @@ impl Signs {
                 }
             }
         };
-        // Without a thread there are no signs; the work does not depend on them.
+        // Without a thread there are no reports; the work does not depend on them.
         let thread = std::thread::Builder::new().name("signs of progress".to_owned()).spawn(watch).ok();
         Self { sender: Some(sender), thread }
     }
 
     fn set(&self, task: &str, progress: Progress<'_>) {
         let sign = Sign { task: task.to_owned(), done: progress.done, total: progress.total };
-        // Nobody listens where the thread could not be made.
+        // Without a thread nobody receives the progress.
         _ = self.sender.as_ref().map(|sender| sender.send(sign));
     }
 }
@@ -187,7 +189,7 @@ impl Drop for Signs {
     fn drop(&mut self) {
         self.sender = None;
         if let Some(thread) = self.thread.take() {
-            // A thread that panicked has told of it.
+            // A thread that panicked has reported its panic.
             _ = thread.join();
         }
     }
@@ -210,11 +212,11 @@ mod tests {
         };
         assert_eq!((to_go("camera", 0, 0), to_go("camera", 0, 5)), (None, None));
         assert_eq!(to_go("camera", 4, 8), Some(Duration::from_secs(16)));
-        // The next set of rays is of the same count, and its first step no pace of its own.
+        // The next set of rays belongs to the same count, and its first step does not set a pace of its own.
         assert_eq!(to_go("bounce", 4, 8), Some(Duration::from_secs(16)));
         assert_eq!((to_go("bounce", 8, 20), to_go("bounce", 12, 30)), (Some(Duration::from_secs(10)), None));
         assert_eq!(to_go("bounce", 11, 20), Some(Duration::from_secs(2)));
-        // Another total is another count, and so is one that begins again.
+        // Another total begins another count, and so does a number that decreases.
         assert_eq!(to_go("bounce", 0, 31), None);
         let other = Progress { task: "render", done: 3, total: 64, unit: "waves" };
         assert_eq!(count.time_left(other, start), None);
@@ -245,7 +247,7 @@ mod tests {
         });
         let progress = |done, total| Progress { task: "", done, total, unit: "" };
         let begun = Instant::now();
-        // However busy the machine is elsewhere.
+        // The wait does not depend on the load of the machine.
         let wait_for = |text: &str| {
             while !told.lock().expect("no panic").iter().any(|told| told.contains(text)) {
                 assert!(begun.elapsed() < Duration::from_secs(60), "nobody says {text}");
@@ -262,7 +264,7 @@ mod tests {
         let told = told.lock().expect("no panic").clone();
         assert!(!was_short || told.iter().all(|text| text.starts_with("long: ")), "{told:?}");
         assert!(!told[0].contains("of 9"), "{told:?}");
-        // After 40, 80, 160, 320 ms and so on, and one of the short task at most.
+        // Reports follow after 40, 80, 160, 320 ms and so on, and at most one for the short task.
         let most = (begun.elapsed().as_secs_f64() / first.as_secs_f64()).log2() + 2.0;
         assert!(told.len() as f64 <= most, "{told:?}");
     }

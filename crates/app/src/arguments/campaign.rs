@@ -79,7 +79,7 @@ pub struct CampaignArguments {
 }
 
 impl CampaignArguments {
-    /// The folder for the results; the parser demands one wherever there are any.
+    /// Returns the folder for the results; the parser demands one if there are any results.
     pub fn folder(&self) -> &Path {
         self.output.as_deref().unwrap_or(Path::new("."))
     }

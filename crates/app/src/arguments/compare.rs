@@ -113,11 +113,11 @@ pub struct CompareArguments {
 }
 
 impl CompareArguments {
-    /// Systems to compare: every named system with every named preset that it has, and with each of the
-    /// values that are addressed to it.
+    /// Returns the systems to compare: every named system with every named preset that it has, and with each
+    /// of the values that assignments give to it.
     ///
     /// # Errors
-    /// A preset or an option that none of the systems has, values that are not taken or do not go together.
+    /// No system has a preset or an option, or values are not accepted or do not go together.
     pub fn systems(&self) -> Result<Vec<SystemConfig>, AppError> {
         Ok(several_systems(&self.systems, &self.presets, &self.work.structure.0, &self.assignments)?)
     }

@@ -23,7 +23,7 @@ With a scene: what is in it and what moves it, its cameras and the view where no
 With --passes: what the structure's build, its traces and its surface lookup record on this device, pass by pass.
 With --statistics: what the lists of its cells hold once it is built: layers per cell, slots that pages waste.";
 
-/// Group of the options about a structure, one of which is given.
+/// Id of the group of options about a structure, one of which must be given.
 const OF_STRUCTURE: &str = "of structure";
 
 /// Options of `rasray info`.
@@ -70,11 +70,11 @@ pub struct InfoArguments {
 }
 
 impl InfoArguments {
-    /// The system that something is wanted of.
+    /// Returns the system whose passes or lists are wanted.
     ///
     /// # Errors
-    /// A preset or an option that the system does not have, a value that it does not take, or options where
-    /// nothing is wanted of a system.
+    /// The system does not have a preset or an option, or does not accept a value; or options of structures
+    /// are given although no structure is shown.
     pub fn system(&self) -> Result<Option<SystemConfig>, AppError> {
         if self.passes || self.statistics {
             return Ok(Some(self.system.config(self.preset, &self.structure.0)?));

@@ -15,7 +15,7 @@ pub fn integrator_parser() -> impl TypedValueParser<Value = &'static IntegratorR
     choice(INTEGRATORS, |integrator| (integrator.name, integrator.doc))
 }
 
-/// Names of the integrators that have an option.
+/// Returns the names of the integrators that have an option.
 fn who_has(option: &str) -> Vec<&'static str> {
     INTEGRATORS.iter().filter(|row| row.option(option).is_some()).map(|row| row.name).collect()
 }
@@ -25,18 +25,18 @@ fn who_has(option: &str) -> Vec<&'static str> {
 pub struct IntegratorArguments(OptionValues);
 
 impl IntegratorArguments {
-    /// An integrator with what was given.
+    /// Makes an integrator with the options that were given.
     ///
     /// # Errors
-    /// An option of an integrator that was not chosen.
+    /// An option belongs to an integrator that was not chosen.
     pub fn of(&self, integrator: &'static IntegratorRow) -> Result<IntegratorSpec, AppError> {
         self.over(&FrameDefaults { integrator, ..FrameDefaults::default() })
     }
 
-    /// The integrator of `defaults` with what was given over its options there.
+    /// Makes the integrator of `defaults`, whose options the given ones override.
     ///
     /// # Errors
-    /// An option of an integrator that was not chosen.
+    /// An option belongs to an integrator that was not chosen.
     pub fn over(&self, defaults: &FrameDefaults) -> Result<IntegratorSpec, AppError> {
         let integrator = defaults.integrator;
         if let Some((option, _)) = self.0.iter().find(|(name, _)| integrator.option(name).is_none()) {

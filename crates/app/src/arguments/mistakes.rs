@@ -5,7 +5,7 @@ use clap::error::{ContextKind, ContextValue, ErrorKind};
 use rasray_report::one_line;
 use rasray_scene::nearest::nearest;
 
-/// Names of other renderers for options of this one.
+/// Names that other renderers have for options of this one.
 const OTHER_NAMES: [(&str, &[&str]); 14] = [
     ("size", &["width", "height", "dimensions", "image-size", "resolution", "res", "pixels"]),
     ("spp", &["samples", "samples-per-pixel", "num-samples", "nsamples"]),
@@ -23,8 +23,8 @@ const OTHER_NAMES: [(&str, &[&str]); 14] = [
     ("system", &["accel", "structure", "algorithm", "accelerator"]),
 ];
 
-/// Turns an answer of the parser into one line of error and one of help; the help names the command
-/// whose options are meant, `line` says what there is.
+/// Turns an answer of the parser into one line of error and one of help. The help names the command whose
+/// options are meant; `line` is the definition of the command line.
 pub(super) fn usage_error(error: &clap::Error, command: Option<&str>, line: &clap::Command) -> AppError {
     let text = error.render().to_string();
     let (mut message, mut help) = (String::new(), String::new());
@@ -38,7 +38,7 @@ pub(super) fn usage_error(error: &clap::Error, command: Option<&str>, line: &cla
         }
     }
     if error.kind() == ErrorKind::UnknownArgument {
-        // The parser's own suggestions follow the first letters, and --width would be --depths.
+        // The parser's own suggestions depend on the first letters, by which --width would become --depths.
         help = match (error.get(ContextKind::InvalidArg), command) {
             (Some(ContextValue::String(word)), Some(command)) => meant(word, command, line),
             _ => String::new(),
@@ -53,7 +53,7 @@ pub(super) fn usage_error(error: &clap::Error, command: Option<&str>, line: &cla
     AppError::usage(message, help)
 }
 
-/// The option that was meant; empty where nothing is like it.
+/// Returns a question after the option that was meant; empty if no option is similar.
 fn meant(word: &str, command: &str, line: &clap::Command) -> String {
     let command = line.find_subcommand(command);
     let Some(name) = word.strip_prefix("--").map(|rest| rest.split('=').next().unwrap_or(rest)) else {
@@ -64,7 +64,8 @@ fn meant(word: &str, command: &str, line: &clap::Command) -> String {
     let name = name.to_lowercase().replace('_', "-");
     let known = |option: &str| names.iter().copied().find(|known| *known == option);
     let elsewhere = OTHER_NAMES.iter().find(|(_, others)| others.contains(&name.as_str()));
-    // The plural of what one command takes one of.
+    // Some commands take several of the values of which another takes one, by the plural of the option's
+    // name.
     let elsewhere = elsewhere.and_then(|(option, _)| known(option).or_else(|| known(&format!("{option}s"))));
     match elsewhere.or_else(|| nearest(&name, names.iter().copied())) {
         Some("size") => "did you mean '--size WIDTHxHEIGHT', such as --size 640x360?".to_owned(),

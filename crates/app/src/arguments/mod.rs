@@ -1,4 +1,4 @@
-//! The command line: what can be said, and how mistakes are answered.
+//! Command line: its definition, and the answers to mistakes.
 
 mod campaign;
 mod compare;
@@ -97,14 +97,14 @@ pub enum Command {
     Man(ManArguments),
 }
 
-/// The words of [`Command`].
+/// Words of the commands in [`Command`].
 const COMMANDS: [&str; 9] =
     ["render", "merge", "compare", "ablate", "replicate", "view", "info", "completions", "man"];
 
-/// Outcome of parsing when there is no command to run.
+/// Result of parsing without a command to run.
 #[derive(Debug)]
 pub enum Refusal {
-    /// Help or version was asked for: text for stdout.
+    /// Text for stdout, as help or version was asked for.
     Text(String),
     /// The command line is wrong.
     Error(AppError),
@@ -113,7 +113,7 @@ pub enum Refusal {
 /// Parses a command line, program name first.
 ///
 /// # Errors
-/// Help and version as text; everything else as a usage error.
+/// [`Refusal::Text`] for help and version; a usage error otherwise.
 pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<CommandLine, Refusal> {
     let arguments: Vec<_> = arguments.into_iter().collect();
     let command = arguments.get(1).and_then(|word| word.to_str()).filter(|word| COMMANDS.contains(word));
@@ -130,10 +130,10 @@ pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<CommandLin
     }
 }
 
-/// The comparison that words of `rasray compare` ask for, the scene first.
+/// Parses the comparison that words of `rasray compare` ask for, the scene first.
 ///
 /// # Errors
-/// Those of `rasray compare`; words that ask for help.
+/// Those of `rasray compare`; also words that ask for help.
 pub fn comparison(words: &[String]) -> Result<CompareArguments, AppError> {
     let line = ["rasray", "compare"].map(OsString::from);
     match parse(line.into_iter().chain(words.iter().map(OsString::from))) {
@@ -143,7 +143,7 @@ pub fn comparison(words: &[String]) -> Result<CompareArguments, AppError> {
     }
 }
 
-/// Reads the words, and which options are among them.
+/// Reads the words, and notes the options among them.
 fn read(arguments: &[OsString]) -> Result<CommandLine, clap::Error> {
     let matches = CommandLine::command().try_get_matches_from(with_negative_values(arguments))?;
     let mut line = CommandLine::from_arg_matches(&matches)?;
@@ -153,8 +153,8 @@ fn read(arguments: &[OsString]) -> Result<CommandLine, clap::Error> {
     Ok(line)
 }
 
-/// The words, with negative numbers behind long options as their values: `--spp -1` as `--spp=-1`. The parser
-/// would take them for short options that it does not know, and blame these.
+/// Joins negative numbers to the long options before them: `--spp -1` becomes `--spp=-1`. The parser would
+/// take such numbers for unknown short options, and report these.
 fn with_negative_values(words: &[OsString]) -> Vec<OsString> {
     let mut joined: Vec<OsString> = Vec::with_capacity(words.len());
     let mut options = true;
@@ -176,7 +176,7 @@ fn with_negative_values(words: &[OsString]) -> Vec<OsString> {
     joined
 }
 
-/// True if a word begins as a negative number does.
+/// True if a word begins like a negative number.
 fn is_negative(word: &str) -> bool {
     let Some(rest) = word.strip_prefix('-') else { return false };
     let digits = rest.strip_prefix('.').unwrap_or(rest);
@@ -186,7 +186,7 @@ fn is_negative(word: &str) -> bool {
         || lower.starts_with("nan")
 }
 
-/// Long names of the options that were typed, not left to their defaults.
+/// Returns the long names of the options that were typed, not left to their defaults.
 fn typed(matches: &ArgMatches) -> Vec<String> {
     let on_line = |id: &&clap::Id| matches.value_source(id.as_str()) == Some(ValueSource::CommandLine);
     matches.ids().filter(on_line).map(|id| id.as_str().replace('_', "-")).collect()

@@ -1,11 +1,12 @@
-//! Options on the command line, made from their rows.
+//! Options of the command line, made from their rows.
 
 use crate::hints::with_flags;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Arg, ArgAction, ArgMatches};
 use rasray_options::{OptionRow, Unit, Value, Values};
 
-/// Reads one of these values by its name; `told` says its name and its line of help.
+/// Makes a parser that reads one of these values by its name; `told` returns the name and the line of help of
+/// a value.
 pub fn choice<T: Copy + Send + Sync + 'static>(
     values: impl IntoIterator<Item = T>,
     told: fn(T) -> (&'static str, &'static str),
@@ -22,7 +23,8 @@ pub fn choice<T: Copy + Send + Sync + 'static>(
     })
 }
 
-/// The argument of an option with its help, and the word that stands for its value `off` where there is one.
+/// Makes the argument of an option with its help, and the argument that stands for the option's value `off`,
+/// if it has one.
 pub fn arguments(row: &'static OptionRow, help: String) -> impl Iterator<Item = Arg> {
     let argument = Arg::new(row.name).long(row.name).help(with_flags(&help));
     let read = move |text: &str| row.values.parse(text);
@@ -50,7 +52,7 @@ pub fn arguments(row: &'static OptionRow, help: String) -> impl Iterator<Item = 
     std::iter::once(argument).chain(off)
 }
 
-/// Value given for an option.
+/// Returns the value given for an option.
 pub fn given(row: &OptionRow, matches: &ArgMatches) -> Option<Value> {
     let off = row.off_name.is_some_and(|name| matches.get_flag(name)).then_some(Value::Word("off"));
     matches.get_one::<Value>(row.name).copied().or(off)

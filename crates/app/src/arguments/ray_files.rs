@@ -23,12 +23,12 @@ pub struct RayFileArguments {
     pub save_hits: Option<PathBuf>,
 }
 
-/// A file with a name for reports.
+/// File with a name for reports.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct NamedFile {
-    /// Letters, digits, `.`, `_` and `-`.
+    /// Name of letters, digits, `.`, `_` and `-`.
     pub name: String,
-    /// The file.
+    /// Path of the file.
     pub path: PathBuf,
 }
 

@@ -46,7 +46,7 @@ const IMAGE: &str = "Image";
 /// Advice for options that do not go together.
 const LEAVE_ONE: &str = "leave one of the two out";
 
-/// Samples of the pilot unless told.
+/// Default number of samples of the pilot.
 const LEAST_SAMPLES: u32 = 16;
 
 /// Options of `rasray render`.
@@ -115,25 +115,25 @@ pub struct RenderArguments {
     pub least_samples: Option<u32>,
 }
 
-/// Reads the name of an image in addition to the colours.
+/// Makes a parser that reads the name of an image in addition to the colours.
 fn aov_parser() -> impl TypedValueParser<Value = Aov> {
     choice(Aov::ALL, |aov| (aov.name(), aov.doc()))
 }
 
 impl RenderArguments {
-    /// The system with its options.
+    /// Makes the configuration of the system with its options.
     ///
     /// # Errors
-    /// A preset or an option that the system does not have, or a value that it does not take.
+    /// The system does not have a preset or an option, or does not accept a value.
     pub fn system(&self) -> Result<SystemConfig, AppError> {
         Ok(self.system.config(self.preset, &self.work.structure.0)?)
     }
 
-    /// The image that was asked for; where nothing is said of it and the scene's own camera sees it, the one
-    /// that suits a built-in scene.
+    /// Returns the frame that was asked for. If no option describes it and the scene's own camera is used,
+    /// the frame is the one that suits a built-in scene.
     ///
     /// # Errors
-    /// An option of an integrator that was not chosen, or what adaptive samples do not go with.
+    /// An option belongs to an integrator that was not chosen, or does not go with adaptive samples.
     pub fn frame(&self) -> Result<Frame, AppError> {
         let defaults = self.system.frame_defaults(self.preset);
         let frame = self.work.frame(defaults, self.adaptive.is_none())?;
@@ -148,10 +148,10 @@ impl RenderArguments {
         Ok(Frame { adaptive: self.adaptive(&frame)?, ..frame })
     }
 
-    /// The images wanted in addition to the colours of a frame.
+    /// Returns the images wanted in addition to the colours of a frame.
     ///
     /// # Errors
-    /// One that the frame, or what is made of it, does not have.
+    /// The frame, or the file that is made of it, does not have an image.
     pub fn aovs(&self, frame: &Frame) -> Result<AovSelection, AppError> {
         let aovs = AovSelection::from_iter(self.aov.iter().copied());
         if self.denoise && self.shard.is_some() && self.frames.is_none() {
@@ -196,7 +196,7 @@ impl RenderArguments {
         Ok(aovs)
     }
 
-    /// Rule for the samples that each pixel of a frame gets; absent: all.
+    /// Returns the rule for the number of samples of each pixel; `None` if each pixel gets all.
     fn adaptive(&self, frame: &Frame) -> Result<Option<Adaptive>, AppError> {
         let Some(threshold) = self.adaptive else { return Ok(None) };
         let refused = |why: String, fix: &str| Err(AppError::usage(why, fix));

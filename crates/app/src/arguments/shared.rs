@@ -17,10 +17,10 @@ use rasray_scene_files::{LoadOptions, load_environment};
 use rasray_scene_source::{ChosenCamera, LoadError, LoadedScene, placed_view};
 use std::path::Path;
 
-/// Pixels of an image unless told.
+/// Default size of an image.
 const DEFAULT_SIZE: Size = Size { width: 640, height: 360 };
 
-/// Samples per pixel unless told.
+/// Default number of samples per pixel.
 const DEFAULT_SAMPLES: u32 = 16;
 
 /// Amount of messages in addition to results and errors.
@@ -82,10 +82,11 @@ pub struct FrameArguments {
 }
 
 impl FrameArguments {
-    /// The image that was asked for; `defaults` where nothing is said of it and no integrator is named.
+    /// Returns the frame that was asked for; it is that of `defaults` if no option describes it and no
+    /// integrator is named.
     ///
     /// # Errors
-    /// An option of an integrator or an occluder that was not chosen.
+    /// An option belongs to an integrator or an occluder that was not chosen.
     fn frame(&self, defaults: FrameDefaults) -> Result<Frame, AppError> {
         let defaults = match self.integrator {
             Some(integrator) => FrameDefaults { integrator, ..FrameDefaults::default() },
@@ -146,10 +147,10 @@ pub struct ViewArguments {
 }
 
 impl ViewArguments {
-    /// The camera that was asked for; else [`LoadedScene::default_view`].
+    /// Chooses the camera that was asked for; otherwise that of [`LoadedScene::default_view`].
     ///
     /// # Errors
-    /// A camera that the scene lacks, an eye at its own target, and a lens that the camera cannot have.
+    /// The scene lacks the camera, the eye is at its own target, or the camera cannot have the lens.
     pub fn choose(&self, loaded: &mut LoadedScene) -> Result<ChosenCamera, LoadError> {
         let chosen = match (self.eye, self.target, &self.camera) {
             (Some(eye), Some(target), _) => placed_view(eye, target, self.fov),
@@ -203,15 +204,15 @@ pub struct SceneArguments {
 }
 
 impl SceneArguments {
-    /// Frames per second, whether given or not.
+    /// Returns the frames per second, given or by default.
     pub fn frames_per_second(&self) -> f64 {
         self.fps.unwrap_or(LoadOptions::FPS)
     }
 
-    /// The radiance from outside that was asked for: a map, or one colour.
+    /// Returns the radiance from outside that was asked for: a map, or one colour.
     ///
     /// # Errors
-    /// Negative colours, files that cannot be read, and pixels that are no radiance.
+    /// A colour is negative, a file cannot be read, or pixels are not valid radiance.
     pub fn environment(&self) -> Result<Option<Environment>, AppError> {
         let Some(value) = self.environment.as_deref() else { return Ok(None) };
         let path = Path::new(value);
@@ -234,7 +235,7 @@ impl SceneArguments {
         Ok(Some(Environment::Constant(color)))
     }
 
-    /// Parts of the scene that the work needs.
+    /// Returns the parts of the scene that the work needs.
     pub fn needs(&self, scene: &Scene, workload: Workload, aovs: AovSelection) -> Needs {
         match self.needs {
             NeedsName::Observed => aovs.needs(scene, workload),
@@ -243,13 +244,13 @@ impl SceneArguments {
     }
 }
 
-/// A map that cannot be read.
+/// Makes the error of a map that cannot be read.
 fn unreadable_map(path: &Path, error: &SceneError) -> AppError {
     let fix = "give a Radiance .hdr file of at most 2^27 pixels";
     match error {
         SceneError::Read { source, .. } => AppError::input(path, source, fix),
         SceneError::Syntax { reason, .. } => AppError::input(path, reason, fix),
-        // Names the file itself.
+        // These messages name the file themselves.
         other => AppError::usage(other.to_string(), fix),
     }
 }
@@ -275,11 +276,12 @@ pub struct WorkArguments {
 }
 
 impl WorkArguments {
-    /// The image that was asked for; `defaults` where nothing is said of it and no integrator is named. First
-    /// hits are drawn through a pinhole, and of all pixels; else they are traced unless told.
+    /// Returns the frame that was asked for; it is that of `defaults` if no option describes it and no
+    /// integrator is named. First hits are drawn if the camera is a pinhole and all pixels are rendered;
+    /// otherwise they are traced by default.
     ///
     /// # Errors
-    /// An option of an integrator or an occluder that was not chosen.
+    /// An option belongs to an integrator or an occluder that was not chosen.
     pub fn frame(&self, mut defaults: FrameDefaults, of_all_pixels: bool) -> Result<Frame, AppError> {
         if !of_all_pixels || self.view.aperture.is_some_and(|aperture| aperture > 0.0) {
             defaults.primary = Primary::Trace;
@@ -301,7 +303,7 @@ pub struct DeviceArguments {
 }
 
 impl DeviceArguments {
-    /// The choice as the back end takes it.
+    /// Returns the choice of the device in the form of the backend.
     pub fn choice(&self) -> DeviceChoice {
         DeviceChoice { device: self.device.clone(), validation: self.validation }
     }

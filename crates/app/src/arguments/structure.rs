@@ -8,12 +8,12 @@ use rasray_systems::{Group, OPTIONS, Preset, SYSTEMS, System};
 
 use super::options::{arguments, choice, given};
 
-/// Reads the name of a system.
+/// Makes a parser that reads the name of a system.
 pub fn system_parser() -> impl TypedValueParser<Value = &'static System> {
     choice(SYSTEMS, |system| (system.name, system.doc))
 }
 
-/// Reads the name of a system, or leaves it to the job.
+/// Makes a parser that reads the name of a system, or the word that leaves it to the job.
 pub fn system_request_parser() -> impl TypedValueParser<Value = SystemRequest> {
     let named = SYSTEMS.iter().map(SystemRequest::Named);
     choice([SystemRequest::Automatic].into_iter().chain(named), |request| match request {
@@ -24,37 +24,37 @@ pub fn system_request_parser() -> impl TypedValueParser<Value = SystemRequest> {
     })
 }
 
-/// Reads the name of a preset.
+/// Makes a parser that reads the name of a preset.
 pub fn preset_parser() -> impl TypedValueParser<Value = Preset> {
     choice(Preset::ALL, |preset| (preset.name(), preset.doc()))
 }
 
-/// Reads the name of a set of rays.
+/// Makes a parser that reads the name of a set of rays.
 pub fn ray_set_parser() -> impl TypedValueParser<Value = RaySet> {
     choice(RaySet::ALL, |set| (set.name(), set.doc()))
 }
 
-/// Reads the name of a sampler.
+/// Makes a parser that reads the name of a sampler.
 pub fn sampler_parser() -> impl TypedValueParser<Value = Sampler> {
     choice(Sampler::ALL, |sampler| (sampler.name(), sampler.doc()))
 }
 
-/// Reads what of a structure frames build.
+/// Makes a parser that reads the parts of a structure that frames build.
 pub fn refresh_parser() -> impl TypedValueParser<Value = Refresh> {
     choice(Refresh::ALL, |refresh| (refresh.name(), refresh.doc()))
 }
 
-/// Reads how the camera's first hits are found.
+/// Makes a parser that reads the method by which the camera's first hits are found.
 pub fn primary_parser() -> impl TypedValueParser<Value = Primary> {
     choice(Primary::ALL, |primary| (primary.name(), primary.doc()))
 }
 
-/// Reads what answers shadow rays.
+/// Makes a parser that reads the occluder of shadow rays.
 pub fn occluder_parser() -> impl TypedValueParser<Value = OccluderKind> {
     choice(OccluderKind::ALL, |occluder| (occluder.name(), occluder.doc()))
 }
 
-/// Reads which rays pass the backs of surfaces.
+/// Makes a parser that reads the rays that pass the backs of surfaces.
 pub fn back_faces_parser() -> impl TypedValueParser<Value = BackFaces> {
     choice(BackFaces::ALL, |back_faces| (back_faces.name(), back_faces.doc()))
 }
@@ -62,7 +62,7 @@ pub fn back_faces_parser() -> impl TypedValueParser<Value = BackFaces> {
 /// The options of a structure on the command line.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct StructureArguments(
-    /// Values given.
+    /// Values of the options that were given.
     pub OptionValues,
 );
 
@@ -80,7 +80,7 @@ impl Args for StructureArguments {
     fn augment_args(command: Command) -> Command {
         Group::ALL.into_iter().fold(command, |command, group| {
             let of_group = OPTIONS.iter().filter(|option| option.group == group);
-            // Sizes first; what else there is, is shown where everything is asked for.
+            // Options of size come first; all others are shown only in the full help.
             command.args(
                 of_group.flat_map(|option| arguments(&option.row, option.row.help())).map(|argument| {
                     argument.help_heading(heading(group)).hide_short_help(group != Group::Size)

@@ -1,4 +1,4 @@
-//! The command line as a person types it.
+//! Tests of the command line as a person types it.
 
 use super::*;
 use clap::CommandFactory;
@@ -51,7 +51,7 @@ fn defaults_are_the_documented_ones() {
     assert_eq!(given.work.structure, StructureArguments::default());
 }
 
-/// The values of options left out suit the scene, its own camera and nothing else.
+/// Checks that options left out get values that suit the scene and its own camera only.
 #[test]
 fn a_picture_of_a_built_in_scene_suits_it() {
     for (line, expected) in [
@@ -67,7 +67,7 @@ fn a_picture_of_a_built_in_scene_suits_it() {
     }
 }
 
-/// Whatever takes a value is named where that is negative.
+/// Checks that an error about a negative value names the option that takes the value.
 #[test]
 fn a_negative_number_is_the_value_of_the_option_before_it() {
     let mut tried = 0;
@@ -236,7 +236,7 @@ fn how_much_is_said_stands_before_the_command_or_after_it() {
     }
 }
 
-/// Whole numbers are taken in the ranges that the help says.
+/// Checks that whole numbers are accepted in the ranges that the help states.
 #[test]
 fn ranges_in_the_help_are_those_of_the_values() {
     let line = CommandLine::command();
@@ -271,7 +271,8 @@ fn ranges_in_the_help_are_those_of_the_values() {
     assert!(tried > 20, "{tried}");
 }
 
-/// Rows of libraries name options without knowing the command line.
+/// Checks every option that a help text names, since rows of libraries name options without knowing the
+/// command line.
 #[test]
 fn every_option_that_a_help_names_is_one() {
     let line = CommandLine::command();

@@ -1,4 +1,4 @@
-//! Colours of pictures of 8 bits.
+//! Tone of pictures of 8 bits.
 
 use super::options::choice;
 use super::values::Quantity;
@@ -6,7 +6,7 @@ use clap::Args;
 use clap::builder::TypedValueParser;
 use rasray_metrics::{Tone, ToneCurve};
 
-/// Reads the name of a curve.
+/// Makes a parser that reads the name of a curve.
 pub fn tone_parser() -> impl TypedValueParser<Value = ToneCurve> {
     choice(ToneCurve::ALL, |curve| (curve.name(), curve.doc()))
 }
@@ -23,12 +23,12 @@ pub struct ToneArguments {
 }
 
 impl ToneArguments {
-    /// Tone that was asked for.
+    /// Returns the tone that was asked for.
     pub fn tone(self) -> Tone {
         Tone { curve: self.tone.unwrap_or_default(), exposure: self.exposure.unwrap_or_default() }
     }
 
-    /// An option that was given, for messages; absent where none was.
+    /// Returns a tone option that was given, for messages; `None` without one.
     pub fn given(self) -> Option<&'static str> {
         self.tone.map(|_| "--tone").or(self.exposure.map(|_| "--exposure"))
     }

@@ -17,56 +17,56 @@ pub enum Switch {
     Off,
 }
 
-/// Pixels of an image.
+/// Size of an image in pixels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Size {
-    /// Pixels a row, in [1, 16384].
+    /// Width in pixels, in [1, 16384].
     pub width: u32,
-    /// Rows, in [1, 16384].
+    /// Height in pixels, in [1, 16384].
     pub height: u32,
 }
 
-/// The largest number of a frame.
+/// Largest number of a frame.
 const MOST_FRAMES: u32 = 9_999_999;
 
 /// Largest side of an image, in pixels.
 const SIDE_LIMIT: u32 = 16_384;
 
-/// Largest distance of a point from the origin of the world along an axis, metres: farther away squares of
+/// Largest distance of a point from the origin of the world along an axis, metres: beyond it squares of
 /// distances exceed single precision.
 const FARTHEST: f64 = 1.0e18;
 
-/// Text that is no value of an argument.
+/// Error of text that is not a value of an argument.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum ValueError {
-    /// No size.
+    /// The text is not a size.
     #[error("write WIDTHxHEIGHT, such as 640x360")]
     Size,
-    /// A size that is empty or too large.
+    /// A side of the size is empty or too large.
     #[error("each side must be from 1 to {SIDE_LIMIT} pixels")]
     Side,
-    /// No point.
+    /// The text is not a point.
     #[error("write three numbers, such as 0,1.5,-4")]
     Point,
-    /// A point that is too far away.
+    /// The point is too far away.
     #[error("each number must be from -{FARTHEST:e} to {FARTHEST:e} metres")]
     Far,
-    /// No numbers of frames.
+    /// The text is not a number or range of frames.
     #[error("must be a frame or a range such as 0-99, up to {MOST_FRAMES}")]
     Frames,
-    /// No share of the work.
+    /// The text is not a share of the work.
     #[error("must be a share such as 2/8, the second of eight")]
     Shard,
-    /// No number, or one out of range.
+    /// The text is not a number, or the number is out of range.
     #[error("must be {0}")]
     Number(Quantity),
-    /// No file with a name.
+    /// The text is not a file with a name.
     #[error("write NAME=FILE.npy, such as embree=hits.npy")]
     NamedFile,
-    /// A name that reports do not show as it is.
+    /// The name contains characters that reports would escape.
     #[error("the name before = has letters, digits, '.', '_' and '-' only")]
     Name,
-    /// No value of an option.
+    /// The text is not a value of the option.
     #[error(transparent)]
     NotTaken(#[from] NotTaken),
 }
@@ -74,7 +74,7 @@ pub enum ValueError {
 /// Reads `640x360`.
 ///
 /// # Errors
-/// Says what the form is, or which sides are possible.
+/// The text does not have the form, or a side is impossible; the message describes what is allowed.
 pub fn size(text: &str) -> Result<Size, ValueError> {
     let sides = sides(text).ok_or(ValueError::Size)?;
     if !sides.iter().all(|side| (1..=SIDE_LIMIT).contains(side)) {
@@ -84,16 +84,16 @@ pub fn size(text: &str) -> Result<Size, ValueError> {
     Ok(Size { width, height })
 }
 
-/// A parser of whole numbers from `least` to `most`.
+/// Makes a parser of whole numbers from `least` to `most`.
 ///
 /// # Errors
-/// The parser's error says what is allowed.
+/// The parser fails for anything else; its message describes what is allowed.
 pub fn whole(least: u32, most: u32) -> impl Fn(&str) -> Result<u32, ValueError> + Clone + Send + Sync {
     let values = Values::Whole(least, most);
     move |text| Ok(values.parse(text)?.whole().ok_or(NotTaken(values))?)
 }
 
-/// Reads three numbers, `1,-2.5,0`; those that are not finite are left to the caller.
+/// Reads three numbers, `1,-2.5,0`. The caller must check that they are finite.
 pub fn three(text: &str) -> Option<[f64; 3]> {
     numbers(text, &[','])
 }
@@ -101,10 +101,10 @@ pub fn three(text: &str) -> Option<[f64; 3]> {
 /// Reads a point of the world, `1,-2.5,0`.
 ///
 /// # Errors
-/// Says what the form and the range are.
+/// The text does not have the form, or a number is out of range; the message describes both.
 pub fn point(text: &str) -> Result<[f64; 3], ValueError> {
     let values = three(text).ok_or(ValueError::Point)?;
-    // Written so that NaN is refused.
+    // The comparison is written so that NaN is refused.
     if !values.iter().all(|value| value.abs() <= FARTHEST) {
         return Err(ValueError::Far);
     }
@@ -114,7 +114,7 @@ pub fn point(text: &str) -> Result<[f64; 3], ValueError> {
 /// Reads numbers of frames, `7` or `0-99`, both ends included.
 ///
 /// # Errors
-/// Says what the form is.
+/// The text does not have the form; the message describes it.
 pub fn frames(text: &str) -> Result<RangeInclusive<u32>, ValueError> {
     let ends = numbers(text, &['-']).or_else(|| number(text).map(|frame| [frame, frame]));
     match ends {
@@ -126,12 +126,12 @@ pub fn frames(text: &str) -> Result<RangeInclusive<u32>, ValueError> {
 /// Reads a share of the work, `2/8`.
 ///
 /// # Errors
-/// Says what the form is.
+/// The text does not have the form; the message describes it.
 pub fn shard(text: &str) -> Result<Shard, ValueError> {
     Shard::parse(text).ok_or(ValueError::Shard)
 }
 
-/// A number with a range, both ends included.
+/// Quantity with a range of numbers, both ends included.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Quantity {
     /// Name of the quantity, for messages.
@@ -141,25 +141,25 @@ pub struct Quantity {
 }
 
 impl Quantity {
-    /// Frames per second.
+    /// Quantity of frames per second.
     pub const FRAMES_PER_SECOND: Self = Self { of: "a number", lowest: 0.001, highest: 100_000.0 };
-    /// A time, up to about thirty years from the origin.
+    /// Quantity of time, up to about thirty years from the origin.
     pub const SECONDS: Self = Self { of: "a finite number of seconds", lowest: -1.0e9, highest: 1.0e9 };
-    /// A standard error that is allowed, as a share of what is measured.
+    /// Quantity of an allowed standard error, as a share of the measured value.
     pub const NOISE: Self = Self { of: "a share", lowest: 1.0e-6, highest: 1.0 };
-    /// Stops of exposure.
+    /// Quantity of exposure in stops.
     pub const STOPS: Self = Self { of: "a number", lowest: -64.0, highest: 64.0 };
-    /// A full angle of view.
+    /// Quantity of a full angle of view.
     pub const ANGLE_OF_VIEW: Self = Self { of: "a number of degrees", lowest: 0.01, highest: 175.0 };
-    /// A length in metres.
+    /// Quantity of a length in metres.
     pub const LENGTH: Self = Self { of: "a number of metres", lowest: 0.0, highest: FARTHEST };
-    /// A distance in metres that is not 0, nor so small that it is 0 in single precision.
+    /// Quantity of a distance in metres that is neither 0 nor so small that it is 0 in single precision.
     pub const DISTANCE: Self = Self { lowest: 1.0e-30, ..Self::LENGTH };
 
-    /// Reads a number.
+    /// Reads a number of the quantity.
     ///
     /// # Errors
-    /// Says what is allowed.
+    /// The text is not a number in the range; the message describes what is allowed.
     fn parse<T: FromStr + Into<f64> + Copy>(self, text: &str) -> Result<T, ValueError> {
         let read: Option<T> = number(text);
         // The comparison is false for NaN.
@@ -167,10 +167,10 @@ impl Quantity {
         read.filter(is_within).ok_or(ValueError::Number(self))
     }
 
-    /// A parser of such numbers.
+    /// Makes a parser of numbers of the quantity.
     ///
     /// # Errors
-    /// The parser's error says what is allowed.
+    /// The parser fails for anything else; its message describes what is allowed.
     pub fn parser<T: FromStr + Into<f64> + Copy>(
         self,
     ) -> impl Fn(&str) -> Result<T, ValueError> + Clone + Send + Sync {

@@ -1,4 +1,4 @@
-//! `rasray ablate`.
+//! Command `rasray ablate`.
 
 use super::campaign::{Campaign, read_plan};
 use crate::arguments::AblateArguments;
@@ -9,7 +9,7 @@ use rasray_experiment::OpenBackend;
 /// Makes every comparison of a plan; `line` is the command as it was typed.
 ///
 /// # Errors
-/// Everything that can be refused without a device is refused before a device is opened.
+/// Errors that can be found without a device are reported before a device is opened.
 pub(crate) fn ablate(
     given: &AblateArguments,
     line: &str,

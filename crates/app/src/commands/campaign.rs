@@ -1,4 +1,4 @@
-//! The comparisons of a plan, one after the other, and the folder of what they give.
+//! Campaign: the comparisons of a plan, one after another, and the folder of their results.
 
 use super::compare::note_resumed;
 use super::hard;
@@ -21,25 +21,25 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
-/// A campaign that is to be made.
+/// Campaign to make.
 pub(super) struct Campaign<'a> {
     pub(super) plan: &'a Plan,
     /// Origin of the plan, for messages.
     pub(super) about: &'a str,
     pub(super) given: &'a CampaignArguments,
-    /// The command as it was typed.
+    /// Command line as it was typed.
     pub(super) line: &'a str,
 }
 
-/// A comparison of the plan, as words of `rasray compare`.
+/// Comparison of the plan, as words of `rasray compare`.
 struct Worded<'a> {
-    /// Place of its experiment.
+    /// Place of the comparison's experiment.
     place: usize,
     plan: &'a ComparisonPlan,
     given: CompareArguments,
 }
 
-/// A comparison of the plan, with what its options ask for.
+/// Comparison of the plan with its subject.
 struct Planned<'a> {
     place: usize,
     plan: &'a ComparisonPlan,
@@ -49,7 +49,7 @@ struct Planned<'a> {
 /// Reads a plan.
 ///
 /// # Errors
-/// A file that cannot be read or is no plan.
+/// The file cannot be read or is not a plan.
 pub(super) fn read_plan(path: &Path, small: bool) -> Result<Plan, AppError> {
     let text = std::fs::read_to_string(path)
         .map_err(|error| AppError::input(path, error, "name a plan in TOML, such as plan.toml"))?;
@@ -57,12 +57,12 @@ pub(super) fn read_plan(path: &Path, small: bool) -> Result<Plan, AppError> {
 }
 
 impl<'a> Campaign<'a> {
-    /// Makes the cells that are missing, and of all of them the files of the folder. The lines of all cells,
-    /// if all are there; of a share and of a dry run none.
+    /// Makes the missing cells, and the files of the folder from all cells. Returns the lines of all cells if
+    /// all exist; none for a share and for a dry run.
     ///
     /// # Errors
-    /// Options that a comparison does not take, by the experiment's name; what is wrong with a scene; a
-    /// folder that takes no files; a signal.
+    /// A comparison does not accept an option (the message names the experiment), a scene is faulty, the
+    /// folder accepts no files, or a signal arrived.
     pub(super) fn make(
         &self,
         open: &mut OpenBackend<'_>,
@@ -109,7 +109,7 @@ impl<'a> Campaign<'a> {
         Ok(lines)
     }
 
-    /// The words of each comparison, read.
+    /// Reads the words of each comparison.
     fn worded(&self) -> Result<Vec<Worded<'a>>, AppError> {
         let read = |(place, plan): (usize, &'a ComparisonPlan)| {
             let given = comparison(&plan.words);
@@ -126,12 +126,12 @@ impl<'a> Campaign<'a> {
         self.plan.comparisons().map(read).collect()
     }
 
-    /// The experiment at a place, for messages.
+    /// Returns the name of the experiment at a place, for messages.
     fn name(&self, place: usize) -> String {
         format!("{}: experiment '{}'", self.about, self.plan.experiments[place].name)
     }
 
-    /// The file of the cells, in a folder that is there from now on.
+    /// Returns the file of the cells, in a folder that is made if it is missing.
     fn cells_file(&self) -> Result<Destination, AppError> {
         let folder = self.given.folder();
         std::fs::create_dir_all(folder)
@@ -143,7 +143,7 @@ impl<'a> Campaign<'a> {
         Destination::check(&folder.join(name))
     }
 
-    /// All cells of the campaign. Scenes are read for what they hold decides the cells' keys.
+    /// Returns all cells of the campaign. Scenes are read, because their contents decide the cells' keys.
     fn cells(
         &self,
         planned: &[Planned<'_>],
@@ -212,7 +212,7 @@ impl<'a> Campaign<'a> {
         read().map_err(|error: AppError| error.about(&self.name(planned.place)))
     }
 
-    /// Makes the cells that are wanted; how many were made.
+    /// Makes the wanted cells, and returns how many were made.
     fn compare(
         &self,
         planned: &[Planned<'_>],
@@ -241,7 +241,7 @@ impl<'a> Campaign<'a> {
             let size = [job.frame.width, job.frame.height];
             let mut finished = |FinishedRun { place, run, pixels }: FinishedRun<'_>| {
                 let Some(place) = own.get(&place) else { return ControlFlow::Continue(()) };
-                // A line says that its picture is there.
+                // A line claims that its picture exists, so the picture is written first.
                 let kept = match (pixels, campaign.list().record(*place)) {
                     (Some(pixels), Some(record)) => self.keep_picture(pixels, size, &record.key, interrupt),
                     _ => Ok(()),
@@ -271,7 +271,7 @@ impl<'a> Campaign<'a> {
         Ok(made)
     }
 
-    /// Writes the picture of a run under its key.
+    /// Writes the picture of a run under the key of the run.
     fn keep_picture(
         &self,
         pixels: &[[f32; 3]],
@@ -287,7 +287,7 @@ impl<'a> Campaign<'a> {
         Destination::check(&place)?.put(&bytes, interrupt)
     }
 
-    /// Says which cells would be made, and how long they would take.
+    /// Tells which cells would be made, and how long they would take.
     fn tell(
         &self,
         campaign: &CampaignCells,
@@ -296,7 +296,7 @@ impl<'a> Campaign<'a> {
     ) -> Result<(), AppError> {
         let settings: Vec<_> = campaign.cells().map(cell_settings).collect();
         let names = in_order(settings.iter().flat_map(|own| own.keys().map(String::as_str)));
-        // Images are told apart among images, and sets of rays among sets of rays.
+        // Images are compared with images, and sets of rays with sets of rays.
         let kind = |own: &BTreeMap<String, String>| own.contains_key("integrator");
         let differs = |one: &BTreeMap<String, String>, other: &BTreeMap<String, String>, name: &str| {
             let same_kind = kind(one) == kind(other) || ["ray-set", "integrator"].contains(&name);
@@ -327,7 +327,7 @@ impl<'a> Campaign<'a> {
         terminal::print(&text)
     }
 
-    /// Writes what all cells are put together to.
+    /// Writes the files that combine all cells.
     fn write(&self, lines: &[Report], interrupt: &Interrupt) -> Result<(), AppError> {
         let Some(campaign) = rasray_report::Campaign::of(lines) else { return Ok(()) };
         for (name, form) in
@@ -340,12 +340,12 @@ impl<'a> Campaign<'a> {
     }
 }
 
-/// File of the picture of a run.
+/// Returns the file name of the picture of a run.
 pub(super) fn picture_place(folder: &Path, key: &str) -> PathBuf {
     folder.join("pictures").join(format!("{key}.png"))
 }
 
-/// The settings that exclusions look at.
+/// Returns the names of the settings that exclusions depend on.
 fn names(exclusions: &[Exclusion]) -> BTreeSet<String> {
     exclusions.iter().flat_map(Exclusion::names).map(str::to_owned).collect()
 }

@@ -1,4 +1,4 @@
-//! `rasray compare`.
+//! Command `rasray compare`.
 
 use super::hard;
 use super::steps::{open_device, stop_if_requested, with_progress};
@@ -14,11 +14,11 @@ use rasray_experiment::{CompareJob, Comparison, FinishedRun, OpenBackend, check_
 use rasray_report::table_within;
 use std::ops::ControlFlow;
 
-/// Traces the same rays through several systems and reports speed next to error; `line` is the command
-/// as it was typed.
+/// Traces equal rays through several systems and reports speed next to error; `line` is the command as it was
+/// typed.
 ///
 /// # Errors
-/// Everything that can be refused without a device is refused before a device is opened.
+/// Errors that can be found without a device are reported before a device is opened.
 pub(crate) fn compare(
     given: &CompareArguments,
     line: &str,
@@ -82,7 +82,7 @@ pub(crate) fn compare(
     stop_after(&targets, (places.len(), count), "runs", interrupt)
 }
 
-/// Says that a command goes on.
+/// Notes that a command resumes.
 pub(super) fn note_resumed(cells: &Cells, missing: usize) {
     if cells.count() > 0 {
         terminal::note(&format!(
@@ -93,7 +93,7 @@ pub(super) fn note_resumed(cells: &Cells, missing: usize) {
     }
 }
 
-/// The end of a command that a signal stopped before all was done.
+/// Returns the error of a command that a signal stopped before all was done.
 pub(super) fn stop_after(
     targets: &Targets,
     (finished, wanted): (usize, usize),

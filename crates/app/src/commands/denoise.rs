@@ -1,4 +1,4 @@
-//! Noise taken out of pictures.
+//! Denoising of pictures.
 
 use crate::error::AppError;
 use crate::hints;
@@ -6,10 +6,10 @@ use rasray_denoise::{Denoiser, NoisyPicture};
 use rasray_experiment::{Aov, RenderOutput};
 use rasray_scene_source::KeyHash;
 
-/// The denoiser, where one is `wanted`.
+/// Returns the denoiser, if one is `wanted`.
 ///
 /// # Errors
-/// There is none on this machine.
+/// This machine has no denoiser.
 pub(super) fn denoiser(wanted: bool) -> Result<Option<Denoiser>, AppError> {
     if !wanted {
         return Ok(None);
@@ -19,7 +19,7 @@ pub(super) fn denoiser(wanted: bool) -> Result<Option<Denoiser>, AppError> {
         .map_err(|error| AppError::usage(hints::message_of_denoiser(&error), hints::help_of_denoiser(&error)))
 }
 
-/// Takes the noise out of the colours of a picture that has the images of [`Aov::FOR_DENOISING`].
+/// Denoises the colours of a picture that has the images of [`Aov::FOR_DENOISING`].
 ///
 /// # Errors
 /// The library fails.
@@ -35,7 +35,7 @@ pub(super) fn denoise(denoiser: &Denoiser, output: &mut RenderOutput) -> Result<
     Ok(())
 }
 
-/// The key of a picture with this key where it is denoised, if it is.
+/// Returns the key of a picture after denoising, if there is a denoiser, otherwise the key itself.
 pub(super) fn key_of_denoised(key: String, denoiser: Option<&Denoiser>) -> String {
     match denoiser {
         Some(denoiser) => {

@@ -1,4 +1,4 @@
-//! `rasray completions` and `rasray man`: made from the command line's own definition.
+//! Commands `rasray completions` and `rasray man`, made from the definition of the command line.
 
 use crate::arguments::{CommandLine, CompletionsArguments, ManArguments};
 use crate::error::AppError;
@@ -6,13 +6,13 @@ use crate::terminal;
 use clap::{Command, CommandFactory};
 use std::io;
 
-/// The command's name in scripts and pages.
+/// Name of the command in scripts and pages.
 const NAME: &str = "rasray";
 
 /// Writes the script that completes this command line.
 ///
 /// # Errors
-/// Stdout takes no more.
+/// Stdout accepts no more.
 pub(crate) fn completions(given: &CompletionsArguments) -> Result<(), AppError> {
     let mut script = Vec::new();
     clap_complete::generate(given.shell, &mut CommandLine::command(), NAME, &mut script);
@@ -22,10 +22,10 @@ pub(crate) fn completions(given: &CompletionsArguments) -> Result<(), AppError> 
 /// Writes a page of the manual as roff: of the whole, or of one command.
 ///
 /// # Errors
-/// There is no such command, or stdout takes no more.
+/// There is no such command, or stdout accepts no more.
 pub(crate) fn man(given: &ManArguments) -> Result<(), AppError> {
     let mut line = CommandLine::command();
-    // Gives commands their whole names, and the options that every command takes.
+    // This call gives commands their whole names, and the options that every command has.
     line.build();
     let command = match &given.command {
         None => line,

@@ -1,4 +1,4 @@
-//! The frames of an animation, one after the other.
+//! Frames of an animation, one after another.
 
 use super::picture_targets::Targets;
 use super::pictures::Pictures;
@@ -8,19 +8,19 @@ use crate::terminal;
 use rasray_experiment::{Aov, FrameBefore, Shard};
 use std::ops::RangeInclusive;
 
-/// When a frame is shown.
+/// Returns the time at which a frame is shown, seconds.
 pub(super) fn seconds(number: u32, fps: f64) -> f64 {
     f64::from(number) / fps
 }
 
-/// The frames of a range that a share of them gets.
+/// Returns the frames of a range that belong to a share.
 pub(super) fn dealt(range: &RangeInclusive<u32>, shard: Option<Shard>) -> Vec<u32> {
     let shard = shard.unwrap_or_default();
     range.clone().filter(|number| shard.holds(number - range.start())).collect()
 }
 
 impl Pictures<'_> {
-    /// Renders the frames. A camera of the scene moves with it, any other one stays.
+    /// Renders the frames. A camera of the scene moves with it, any other camera stays.
     pub(super) fn render_frames(&mut self, numbers: &[u32]) -> Result<(), AppError> {
         let mut tally = Tally::default();
         for (position, &number) in numbers.iter().enumerate() {
@@ -32,7 +32,7 @@ impl Pictures<'_> {
         }
         if let Some(rows) = &mut self.rows {
             if numbers.is_empty() || rows.is_changed() {
-                // A share without frames has a report without rows, so that reports of all shares can be
+                // A share without frames gets a report without rows, so that reports of all shares can be
                 // merged.
                 rows.write(self.interrupt)?;
             }
@@ -44,8 +44,8 @@ impl Pictures<'_> {
         Ok(())
     }
 
-    /// The frame before one, where anything of it is wanted: also of the first, so that no frame depends on
-    /// which others are made. The scene is shown as it is then.
+    /// Returns the frame before, if any wanted image needs it; also for the first frame, so that no frame
+    /// depends on which others are made. The scene is shown as in the frame before afterwards.
     fn frame_before(&mut self, number: u32) -> Result<Option<FrameBefore>, AppError> {
         if !self.aovs.contains(Aov::Motion) {
             return Ok(None);
@@ -63,7 +63,7 @@ impl Pictures<'_> {
         Ok(Some(FrameBefore { moment, camera: moved.unwrap_or_else(|| self.chosen.camera.clone()) }))
     }
 
-    /// Renders a frame, unless it is there. Returns what there was of it.
+    /// Renders a frame, unless it exists. Returns the state of its files before.
     fn render_frame(&mut self, number: u32) -> Result<ImageState, AppError> {
         let targets = Targets::of(self.given, self.aovs, Some(number))?;
         if let (Some((image, _)), Some(rows)) = (&targets.image, &self.rows)
@@ -102,7 +102,7 @@ impl Pictures<'_> {
     }
 }
 
-/// Number of frames of each standing.
+/// Number of frames for each state of the files.
 #[derive(Default)]
 struct Tally([u32; ImageState::ALL.len()]);
 

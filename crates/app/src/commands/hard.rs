@@ -1,4 +1,4 @@
-//! `rasray compare hard:<id>`: scenes and rays that break ray tracers.
+//! Command `rasray compare hard:<id>`: scenes and rays that break ray tracers.
 
 use super::compare::{note_resumed, stop_after};
 use super::steps::{open_device, stop_if_requested, with_progress};
@@ -21,22 +21,22 @@ use std::collections::BTreeSet;
 use std::ffi::OsStr;
 use std::ops::Range;
 
-/// Rays of generated cases unless told.
+/// Default number of rays of generated cases.
 const DEFAULT_RAYS: u32 = 2000;
 
-/// Every case.
+/// Word for all cases.
 const ALL: &str = "all";
 
-/// The id of a hard case, if a scene's name asks for one.
+/// Returns the id of a hard case, if a scene's name asks for one.
 pub(super) fn asked_for(scene: &OsStr) -> Option<&str> {
     scene.to_str()?.strip_prefix("hard:")
 }
 
-/// Traces the rays of a hard case, or of all, through several systems and says whether each met what
-/// the case demands; `line` is the command as it was typed.
+/// Traces the rays of a hard case, or of all, through several systems and tells whether each met the demand
+/// of the case; `line` is the command as it was typed.
 ///
 /// # Errors
-/// As `rasray compare`. With `--check`, a target that was not met.
+/// As for `rasray compare`; with `--check` also a target that was not met.
 pub(super) fn compare(
     given: &CompareArguments,
     id: &str,
@@ -91,7 +91,7 @@ pub(super) fn compare(
         };
         let (one, triangles) = match traced {
             Ok(traced) => traced,
-            // Cases that were whole before are kept.
+            // The results of cases that were complete before are kept.
             Err(error) if finished > 0 => {
                 failed = Some(error);
                 break;
@@ -99,7 +99,7 @@ pub(super) fn compare(
             Err(error) => return Err(error),
         };
         if one.runs.is_empty() {
-            // A signal ended the case before it was whole.
+            // A signal ended the case before it was complete.
             break;
         }
         output::save(targets.save(), &one.kept, interrupt)?;
@@ -135,7 +135,7 @@ pub(super) fn compare(
     if given.check { check_targets(&report.runs) } else { Ok(()) }
 }
 
-/// Shows what becomes of one ray of each case.
+/// Shows the steps of one ray of each case.
 fn replay(
     given: &CompareArguments,
     ids: &[&str],
@@ -152,7 +152,7 @@ fn replay(
     Ok(())
 }
 
-/// The ids that are meant.
+/// Returns the ids that a name stands for.
 fn ids(id: &str) -> Result<Vec<&'static str>, AppError> {
     let known: Vec<_> = rasray_hard_cases::ids().into_iter().chain(rasray_hard_cases::file_ids()).collect();
     if id == ALL {
@@ -179,7 +179,7 @@ fn ids(id: &str) -> Result<Vec<&'static str>, AppError> {
     ))
 }
 
-/// Refuses what is about scenes, images and generated rays.
+/// Refuses options about scenes, images and generated rays.
 fn refuse_options_of_scenes(given: &CompareArguments) -> Result<(), AppError> {
     const UNFIT: [&str; 24] = [
         "time",
@@ -227,7 +227,7 @@ fn hits_files(given: &CompareArguments, ids: &[&str]) -> Result<Vec<HitsFile>, A
     given.files.hits_file.iter().map(|file| Ok(load_hits(&file.name, &file.path)?)).collect()
 }
 
-/// Systems and hits of files that cases are traced through.
+/// Systems and files of hits for the cases.
 #[derive(Clone, Copy)]
 struct Subject<'a> {
     systems: &'a [SystemConfig],
@@ -235,9 +235,9 @@ struct Subject<'a> {
     targets: &'a Targets,
 }
 
-/// Scale of the cases.
+/// Returns the scale of the cases.
 fn scale(given: &CompareArguments) -> Scale {
-    // A ray does not depend on how many there are.
+    // A ray does not depend on the number of rays.
     let fewest = given.replay.map_or(0, |index| index.saturating_add(1));
     let rays = given.rays.unwrap_or(DEFAULT_RAYS.max(fewest)) as usize;
     Scale { rays, seed: given.work.frame.seed.into(), full: given.full }
@@ -271,7 +271,7 @@ fn trace(
     Ok((comparison, case.triangles.len() as u64))
 }
 
-/// Says which targets were not met.
+/// Reports the targets that were not met.
 fn check_targets(runs: &[Run]) -> Result<(), AppError> {
     let missed: Vec<_> = runs
         .iter()

@@ -7,12 +7,12 @@ use crate::terminal;
 use rasray_experiment::RenderOutput;
 use rasray_metrics::Tone;
 
-/// A place in words.
+/// Returns a place in words.
 pub(super) fn named(place: &Destination) -> String {
     if place.is_stdout() { "standard output".to_owned() } else { place.named().display().to_string() }
 }
 
-/// Encodes an image and puts it in its place; says what is not as it should be with it.
+/// Encodes an image and puts it in its place; reports faults of the image.
 pub(super) fn write_image(
     (place, format): (&Destination, ImageFormat),
     output: &RenderOutput,

@@ -1,4 +1,4 @@
-//! `rasray merge`.
+//! Command `rasray merge`.
 
 use super::denoise::{denoise, denoiser, key_of_denoised};
 use super::images::write_image;
@@ -16,10 +16,10 @@ use rasray_experiment::{Aov, RenderOutput, Shard};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
-/// Puts shares of a picture's samples, or reports of frames, together.
+/// Merges shares of a picture's samples, or reports of frames.
 ///
 /// # Errors
-/// Parts that do not go together, named; parts that do not make a whole.
+/// Parts do not go together (the message names them), or do not make a whole.
 pub(crate) fn merge(given: &MergeArguments, interrupt: &Interrupt) -> Result<(), AppError> {
     let place = Destination::check(&given.out)?;
     if let Some(part) = given.parts.iter().find(|part| place.is(part)) {
@@ -43,12 +43,12 @@ pub(crate) fn merge(given: &MergeArguments, interrupt: &Interrupt) -> Result<(),
     let parts = in_order(&given.parts)?;
     let (mut output, metadata) = add(&parts)?;
     let tone = given.tone.tone();
-    // A PNG is not asked to hold what the denoiser reads.
+    // A PNG need not hold the images that only the denoiser reads.
     let is_read = |aov: &Aov| denoiser.is_some() && Aov::FOR_DENOISING.contains(aov);
     let is_kept = |aov: &Aov| format == ImageFormat::Exr || !is_read(aov);
     check_format(&given.out, format, output.aovs.keys().any(is_kept), given.tone)?;
     if let Some(denoiser) = &denoiser {
-        // Further images are in the part with the first sample.
+        // The part with the first sample holds the additional images.
         if let (Some(lacking), Some(first)) =
             (Aov::FOR_DENOISING.into_iter().find(|aov| !output.aovs.contains_key(aov)), parts.first())
         {
@@ -76,8 +76,8 @@ fn read(path: &Path) -> Result<PartFile, AppError> {
     decode_part(bytes).map_err(|error| AppError::input(path, error, help))
 }
 
-/// The parts in the order of their first samples, in which they are added whatever order they were named in.
-/// Refuses parts that do not make one whole picture.
+/// Orders the parts by their first samples, the order in which they are added whatever order they were named
+/// in. Refuses parts that do not make one whole picture.
 fn in_order(parts: &[PathBuf]) -> Result<Vec<&Path>, AppError> {
     let mut first: Option<(&Path, String)> = None;
     let mut holders: Vec<Option<&Path>> = Vec::new();
@@ -128,8 +128,8 @@ fn in_order(parts: &[PathBuf]) -> Result<Vec<&Path>, AppError> {
     Ok(ordered)
 }
 
-/// Adds the parts: one after the other in f64, so that the sums of the parts are the only ones that are
-/// rounded. Further images are those of the part with the first sample.
+/// Adds the parts one after another in f64, so that only the sums of the parts are rounded. Additional images
+/// are those of the part with the first sample.
 fn add(parts: &[&Path]) -> Result<(RenderOutput, Metadata), AppError> {
     let mut sums: Vec<[f64; 3]> = Vec::new();
     let mut counts: Vec<u32> = Vec::new();
@@ -166,7 +166,7 @@ fn add(parts: &[&Path]) -> Result<(RenderOutput, Metadata), AppError> {
     Ok((output, metadata))
 }
 
-/// Puts rows of reports together: in the order of frames, each picture once.
+/// Merges rows of reports in the order of frames, each picture once.
 fn merge_rows(given: &MergeArguments, place: &Destination, interrupt: &Interrupt) -> Result<(), AppError> {
     let mut rows: BTreeMap<u32, (Row, &Path)> = BTreeMap::new();
     for path in &given.parts {
@@ -196,17 +196,17 @@ fn merge_rows(given: &MergeArguments, place: &Destination, interrupt: &Interrupt
 /// Advice for rows that do not go together.
 const SAME: &str = "merge reports of the same scene, options and program";
 
-/// Frames that commands make, from the first to the last.
+/// Request of a command for frames, from the first to the last.
 struct FrameRequest<'a> {
-    /// The row that says so first, and its file.
+    /// First row with this request, and its file.
     by: (&'a Row, &'a Path),
     key: &'a str,
-    /// Numbers of shares, where all rows are of shares of as many.
+    /// Number of shares, if all rows are of shares of one division.
     of: Option<u32>,
 }
 
-/// Refuses rows of different commands, and rows that are not all that one of these commands and its other
-/// shares make.
+/// Refuses rows of different commands, and rows that are not everything that one of these commands and its
+/// other shares make.
 fn check_rows(rows: &BTreeMap<u32, (Row, &Path)>) -> Result<(), AppError> {
     let Some((first, from)) = rows.values().next() else { return Ok(()) };
     let mut asked: BTreeMap<(u32, u32), FrameRequest<'_>> = BTreeMap::new();
@@ -260,7 +260,7 @@ fn check_complete(
     if let Some(of) = asked.of {
         let held: BTreeSet<u32> =
             rows.range(first..=last).map(|(frame, _)| (frame - first) % of + 1).collect();
-        // A share of which nothing is there, if it has frames at all.
+        // These shares are missing entirely, unless they have no frames.
         let shares = (1..=of.min(all.min(u32::MAX.into()) as u32)).filter(|number| !held.contains(number));
         let shares: Vec<_> = shares.take(LISTED + 1).map(|number| (number, number)).collect();
         if !shares.is_empty() {
@@ -272,10 +272,10 @@ fn check_complete(
     Err(AppError::input(asked.by.1, message, help))
 }
 
-/// Most ranges that a message lists.
+/// Largest number of ranges that a message lists.
 const LISTED: usize = 8;
 
-/// Ranges in words: `4, 6, 9-12`.
+/// Writes ranges in words: `4, 6, 9-12`.
 fn listed(ranges: &[(u32, u32)]) -> String {
     let range = |(from, to): &(u32, u32)| if from == to { from.to_string() } else { format!("{from}-{to}") };
     let mut words: Vec<_> = ranges.iter().take(LISTED).map(range).collect();

@@ -1,4 +1,4 @@
-//! `rasray merge` of comparisons: shares of the cells as one report.
+//! Command `rasray merge` for comparisons: shares of the cells as one report.
 
 use super::targets::Form;
 use crate::arguments::MergeArguments;
@@ -13,7 +13,7 @@ use std::fs::File;
 use std::io::{BufRead, BufReader};
 use std::path::Path;
 
-/// True if the first line of the parts is of a comparison.
+/// True if the first line of the parts is the cell of a comparison.
 pub(super) fn cells_are_in(given: &MergeArguments) -> bool {
     let first = |path: &Path| {
         let mut line = Vec::new();
@@ -23,10 +23,11 @@ pub(super) fn cells_are_in(given: &MergeArguments) -> bool {
     given.parts.iter().find_map(|part| first(part)).is_some_and(|report| report.cell.is_some())
 }
 
-/// Puts the cells of a comparison together, in their order, each once.
+/// Merges the cells of a comparison in their order, each once.
 ///
 /// # Errors
-/// Lines of different comparisons, programs or devices, by the file's name; cells that are in no file.
+/// Lines are of different comparisons, programs or devices (the message names the file), or cells are in no
+/// file.
 pub(super) fn merge_cells(
     given: &MergeArguments,
     place: &Destination,

@@ -15,7 +15,7 @@ pub(super) struct Targets {
 }
 
 impl Targets {
-    /// As the command line says, with the number of a frame in the names where there is one.
+    /// Makes the destinations of the command line, with the number of a frame in the names if there is one.
     pub(super) fn of(
         given: &RenderArguments,
         aovs: AovSelection,
@@ -47,7 +47,8 @@ impl Targets {
         Ok(Self { image, report })
     }
 
-    /// Standing of the picture with this key: its image, and its report as well, where one is wanted here.
+    /// Returns the state of the picture with this key: of its image, and of its report if one is wanted at
+    /// this place.
     pub(super) fn standing(&self, given: &RenderArguments, key: &str) -> Result<ImageState, AppError> {
         let Some((place, format)) = self.image.as_ref().filter(|(place, _)| !place.is_stdout()) else {
             return Ok(ImageState::Missing);
@@ -62,12 +63,12 @@ impl Targets {
     }
 }
 
-/// True if a report of frames with this name takes a row of each.
+/// True if a report of frames with this name gets a row for each frame.
 fn takes_rows(path: &Path) -> bool {
     numbered(path, 0).is_none() && Rows::are_in(path)
 }
 
-/// The report that takes a row per frame, where one was asked for.
+/// Opens the report that gets a row per frame, if one was asked for.
 pub(super) fn rows(given: &RenderArguments) -> Result<Option<Rows>, AppError> {
     let Some(path) = given.report.as_deref().filter(|path| given.frames.is_some() && takes_rows(path)) else {
         return Ok(None);
@@ -77,8 +78,8 @@ pub(super) fn rows(given: &RenderArguments) -> Result<Option<Rows>, AppError> {
     Ok(Some(rows))
 }
 
-/// The path with a number in place of the last run of # in its file name, with as many digits or more; absent
-/// where it has none.
+/// Replaces the last run of # in a path's file name by a number, with as many digits or more; `None` without
+/// such a run.
 fn numbered(path: &Path, number: u32) -> Option<PathBuf> {
     let name = path.file_name()?.to_str()?;
     let end = name.rfind('#')? + 1;
@@ -87,7 +88,7 @@ fn numbered(path: &Path, number: u32) -> Option<PathBuf> {
     Some(path.with_file_name(format!("{}{number:0width$}{}", &name[..begin], &name[end..])))
 }
 
-/// File and format of the image; refuses images that the format cannot hold.
+/// Returns file and format of the image; refuses images that the format cannot hold.
 fn image_target(
     given: &RenderArguments,
     path: Option<&Path>,
@@ -122,7 +123,7 @@ fn image_target(
     Ok(Some((Destination::check(path)?, format)))
 }
 
-/// Refuses what a format cannot hold.
+/// Refuses images that a format cannot hold.
 pub(super) fn check_format(
     path: &Path,
     format: ImageFormat,
@@ -144,10 +145,10 @@ pub(super) fn check_format(
     }
 }
 
-/// The share of the samples that was asked for, if not all.
+/// Returns the share of the samples that was asked for; `None` for all.
 ///
 /// # Errors
-/// There are no samples in it.
+/// The share has no samples.
 pub(super) fn samples_shard(given: &RenderArguments) -> Result<Option<Shard>, AppError> {
     let Some(shard) = given.shard.filter(|_| given.frames.is_none()) else { return Ok(None) };
     let spp = given.frame()?.spp;

@@ -1,4 +1,4 @@
-//! Pictures of one command: what they have in common, and how one is made and written.
+//! Pictures of one command: their common inputs, and the rendering and writing of each.
 
 use super::denoise::{denoise, key_of_denoised};
 use super::images::{named, write_image};
@@ -18,33 +18,33 @@ use rasray_experiment::{
 use rasray_report::{FramesRecord, Report, json_escaped, table_within};
 use rasray_scene_source::{ChosenCamera, LoadedScene};
 
-/// Inputs that the pictures of a command have in common.
+/// Inputs that all pictures of a command have in common.
 pub(super) struct Pictures<'a> {
     pub(super) given: &'a RenderArguments,
     pub(super) line: &'a str,
     pub(super) interrupt: &'a Interrupt,
     pub(super) frame: Frame,
-    /// Samples to make; absent: all.
+    /// Share of the samples to make; absent for all.
     pub(super) shard: Option<Shard>,
     pub(super) aovs: AovSelection,
     pub(super) system: SystemConfig,
-    /// The frames that the command makes; absent for one picture.
+    /// Frames that the command makes; absent for one picture.
     pub(super) frames: Option<FramesRecord>,
-    /// The report that takes a row per frame.
+    /// Report with a row per frame.
     pub(super) rows: Option<Rows>,
     pub(super) loaded: LoadedScene,
     pub(super) chosen: ChosenCamera,
     pub(super) backend: Box<dyn Backend>,
-    /// Scene on the device, as left by the picture at another time.
+    /// Scene on the device, in the state after the picture of another time.
     pub(super) kept: KeptScene,
-    /// The frame before the one that is shown, where anything of it is wanted.
+    /// Frame before the one that is shown, if any wanted image needs it.
     pub(super) before: Option<FrameBefore>,
-    /// Denoiser of the pictures, where that is wanted.
+    /// Denoiser of the pictures, if they are to be denoised.
     pub(super) denoiser: Option<Denoiser>,
 }
 
 impl Pictures<'_> {
-    /// The job of the scene as it is shown.
+    /// Makes the job of the scene as it is shown.
     fn job<'a>(&self, loaded: &'a LoadedScene) -> RenderJob<'a> {
         let Self { given, frame, shard, chosen, .. } = self;
         let aovs = self.rendered_aovs();
@@ -63,20 +63,20 @@ impl Pictures<'_> {
         }
     }
 
-    /// The images that are rendered in addition to the colours: those that were asked for, and what a
-    /// denoiser needs.
+    /// Returns the images that are rendered in addition to the colours: those that were asked for, and those
+    /// that a denoiser needs.
     fn rendered_aovs(&self) -> AovSelection {
         self.aovs.with(self.denoiser.iter().flat_map(|_| Aov::FOR_DENOISING))
     }
 
-    /// The key of the picture of the scene as it is shown.
+    /// Returns the key of the picture of the scene as it is shown.
     pub(super) fn key(&self) -> String {
         let key = picture_key(version_text(), &self.loaded, &self.job(&self.loaded));
         key_of_denoised(key, self.denoiser.as_ref())
     }
 
-    /// Renders the scene as it is and writes what was asked for; `key` is the picture's. `keeps_part`: a
-    /// signal keeps the samples done so far.
+    /// Renders the scene as it is and writes the files that were asked for; `key` is the picture's. With
+    /// `keeps_part`, a signal keeps the samples done so far.
     pub(super) fn render(
         &mut self,
         targets: &Targets,
@@ -89,11 +89,11 @@ impl Pictures<'_> {
         count_not_uploaded(&mut self.loaded, &self.chosen.camera, &needs);
         let mut job = self.job(&self.loaded);
         if shard.is_some_and(|shard| !shard.holds(0)) {
-            // They come with the first sample.
+            // Only the share with the first sample has additional images.
             job.aovs = AovSelection::default();
         }
         let samples = shard.unwrap_or_default().samples(frame.spp).count();
-        // A sample takes several waves; an early end keeps whole ones.
+        // A sample takes several waves; an early end keeps complete samples.
         let is_kept = |progress: &Progress<'_>| {
             keeps_part && progress.total > 0 && progress.done.saturating_mul(samples.into()) >= progress.total
         };
@@ -103,7 +103,7 @@ impl Pictures<'_> {
 
         let mut run = output.run(&job.system, &frame);
         let whole = check_run(&run);
-        // A picture that a signal cut short is none that another run would make.
+        // A picture that a signal cut short has no key, since another run would not make it.
         let key = Some(key).filter(|_| output.samples_done == samples);
         run.key.clone_from(&key);
         run.shard = shard.map(|shard| shard.to_string());
@@ -163,7 +163,7 @@ impl Pictures<'_> {
     }
 }
 
-/// Refuses a render that ended before anything was whole that is kept.
+/// Refuses a render that ended before anything was complete that is kept.
 fn check_samples(output: &RenderOutput, samples: u32, keeps_part: bool) -> Result<(), AppError> {
     if output.samples_done == 0 {
         return Err(AppError::interrupted(
@@ -180,7 +180,7 @@ fn check_samples(output: &RenderOutput, samples: u32, keeps_part: bool) -> Resul
     Ok(())
 }
 
-/// A report as its file holds it: one line where others may follow.
+/// Returns the text of a report's file: one line if others may follow.
 fn report_text(place: &Destination, report: &Report) -> String {
     let text = if Rows::are_in(place.named()) { report.to_json_line() + "\n" } else { report.to_json() };
     json_escaped(&text)

@@ -1,4 +1,4 @@
-//! `rasray render`.
+//! Command `rasray render`.
 
 use super::denoise::denoiser;
 use super::frames::{dealt, seconds};
@@ -14,10 +14,11 @@ use rasray_experiment::{Aov, KeptScene, OpenBackend};
 use rasray_report::FramesRecord;
 use rasray_scene_source::KeyHash;
 
-/// Renders a scene, or frames of it, and writes what was asked for; `line` is the command as it was typed.
+/// Renders a scene, or frames of it, and writes the files that were asked for; `line` is the command as it
+/// was typed.
 ///
 /// # Errors
-/// Everything that can be refused without a device is refused before a device is opened.
+/// Errors that can be found without a device are reported before a device is opened.
 pub(crate) fn render(
     given: &RenderArguments,
     line: &str,
@@ -29,11 +30,11 @@ pub(crate) fn render(
     let system = given.system()?.serving(frame.workload());
     let denoiser = denoiser(given.denoise)?;
     let shard = samples_shard(given)?;
-    // All shares of the frames begin alike: a camera that nothing moves stays where it is for the first of
-    // all.
+    // All shares of the frames begin at the first frame of all, by which a camera that nothing moves is
+    // placed.
     let first = given.frames.as_ref().map(|range| *range.start());
     let numbers = given.frames.as_ref().map(|range| dealt(range, given.shard));
-    // For a range of frames this refuses what is wrong with the first one.
+    // For a range of frames this refuses faults of the first one.
     let targets = Targets::of(given, aovs, first)?;
     let rows = rows(given)?;
     let fps = given.work.reading.frames_per_second();
@@ -51,7 +52,7 @@ pub(crate) fn render(
 
     let backend = open_device(open, &given.work.device)?;
     stop_if_requested(interrupt)?;
-    // Images stay as they are at all times.
+    // Images of the scene do not depend on the time.
     let rendered = aovs.with(denoiser.iter().flat_map(|_| Aov::FOR_DENOISING));
     let needs = given.work.reading.needs(&loaded.scene, frame.workload(), rendered);
     fit_images(&mut loaded, &needs, backend.as_ref())?;
@@ -82,7 +83,8 @@ pub(crate) fn render(
 }
 
 impl Pictures<'_> {
-    /// The frames that are made. The scene is shown at the time of the first of all, in every share.
+    /// Returns the record of the frames that are made. The scene is shown at the time of the first frame of
+    /// all, in every share.
     fn frames_record(&self) -> Option<FramesRecord> {
         let range = self.given.frames.as_ref()?;
         let fps = self.given.work.reading.frames_per_second();
@@ -91,7 +93,7 @@ impl Pictures<'_> {
         Some(FramesRecord { first: *range.start(), last: *range.end(), shard, key })
     }
 
-    /// Renders the scene at its only time, unless the image is there.
+    /// Renders the scene at its only time, unless the image exists.
     fn render_one(&mut self, targets: &Targets) -> Result<(), AppError> {
         let key = self.key();
         if self.given.resume {
@@ -104,7 +106,7 @@ impl Pictures<'_> {
                 Some(reason) => terminal::note(&format!("the image is rendered: it is {reason}")),
             }
         }
-        // A share of the samples is whole or of no use.
+        // A share of the samples is useless unless it is complete.
         self.render(targets, key, self.shard.is_none())
     }
 }

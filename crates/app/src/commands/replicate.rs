@@ -1,4 +1,4 @@
-//! `rasray replicate`.
+//! Command `rasray replicate`.
 
 use super::campaign::Campaign;
 use super::sheets::write_sheet;
@@ -11,13 +11,13 @@ use rasray_campaign::{Item, PAPERS, Paper, Plan, paper_page, word};
 use rasray_experiment::OpenBackend;
 use rasray_report::{columns, json_escaped};
 
-/// The items of a paper that are made, with their plans.
+/// Items of a paper to make, with their plans.
 type Chosen = (&'static Paper, Vec<(&'static Item, Plan)>);
 
 /// Makes tables and figures of papers again; `line` is the command as it was typed.
 ///
 /// # Errors
-/// An item that the paper does not have; as `rasray ablate`.
+/// The paper does not have an item; otherwise as for `rasray ablate`.
 pub(crate) fn replicate(
     given: &ReplicateArguments,
     line: &str,
@@ -49,7 +49,7 @@ pub(crate) fn replicate(
     Ok(())
 }
 
-/// The items that were asked for; all of the papers without any.
+/// Returns the items that were asked for; all items of the papers if none were.
 fn chosen(papers: &[&'static Paper], names: &[String], small: bool) -> Result<Vec<Chosen>, AppError> {
     if let Some(name) = names.iter().find(|name| papers.iter().all(|paper| paper.item(name).is_none())) {
         let known: Vec<_> =

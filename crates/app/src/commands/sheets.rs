@@ -1,4 +1,4 @@
-//! Pictures of runs side by side in one file.
+//! Sheets: pictures of runs side by side in one file.
 
 use super::campaign::picture_place;
 use crate::error::AppError;
@@ -9,17 +9,17 @@ use image::{RgbImage, imageops};
 use rasray_campaign::{SHEET_COLUMNS, Sheet};
 use std::path::Path;
 
-/// White around each picture, pixels.
+/// Width of the white margin around each picture, pixels.
 const GAP: u32 = 4;
 
-/// Smaller pictures are magnified, each pixel to a square, as long as they stay within it; pixels.
+/// Width up to which smaller pictures are magnified, each pixel to a square; pixels.
 const WIDTH: u32 = 300;
 
-/// Writes a sheet into the folder of a campaign, of the pictures that are there. Warns of those that are not:
+/// Writes a sheet of the existing pictures into the folder of a campaign. Warns of missing pictures, since
 /// lines of cells may come from elsewhere.
 ///
 /// # Errors
-/// A file that is no picture; a folder that takes no file.
+/// A file is not a picture, or the folder accepts no file.
 pub(super) fn write_sheet(sheet: &Sheet, folder: &Path, interrupt: &Interrupt) -> Result<(), AppError> {
     let mut pictures = Vec::new();
     let mut missing = 0;
@@ -50,7 +50,7 @@ pub(super) fn write_sheet(sheet: &Sheet, folder: &Path, interrupt: &Interrupt) -
     Destination::check(&place)?.write(&bytes, interrupt)
 }
 
-/// Pictures in rows, on white.
+/// Joins pictures in rows, on white.
 fn joined(pictures: &[RgbImage]) -> RgbImage {
     let largest = |side: fn(&RgbImage) -> u32| pictures.iter().map(side).max().unwrap_or_default().max(1);
     let (width, height) = (largest(RgbImage::width), largest(RgbImage::height));
@@ -88,7 +88,7 @@ mod tests {
         let seen = [(4, 4), (303, 123), (304, 4), (308, 4), (4, 132), (308, 132)];
         let grey = seen.map(|(x, y)| sheet.get_pixel(x, y).0[0]);
         assert_eq!(grey, [10, 10, 255, 20, 50, 255]);
-        // One that is smaller than the others, and one that is not there.
+        // One picture is smaller than the others, and one is missing.
         let sheet = joined(&[plain(300, 100, 1), plain(100, 50, 2), RgbImage::new(0, 0)]);
         assert_eq!((sheet.width(), sheet.height()), (4 + 3 * 304, 108));
         let seen = [(303, 103), (308, 4), (507, 103), (508, 4), (612, 4)];

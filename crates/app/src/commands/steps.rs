@@ -1,4 +1,4 @@
-//! Steps that several commands take.
+//! Steps that several commands have in common.
 
 use crate::arguments::values::Switch;
 use crate::arguments::{DeviceArguments, SceneArguments, ViewArguments};
@@ -21,7 +21,7 @@ pub(super) fn destination(path: Option<&Path>) -> Result<Option<Destination>, Ap
     path.map(Destination::check).transpose()
 }
 
-/// Refuses to write what `option` asks for over the scene that it is about, or a file of it.
+/// Refuses an output of `option` that would overwrite the scene, or a file of it.
 pub(super) fn keep_inputs(option: &str, output: Option<&Destination>, scene: &OsStr) -> Result<(), AppError> {
     let scene = Path::new(scene);
     let Some(output) = output else { return Ok(()) };
@@ -54,27 +54,27 @@ pub(super) fn open_device(
     during("device", "opening", || Ok(open(&given.choice())?))
 }
 
-/// Who poses a scene that is shown at a time.
+/// Side that poses a scene which is shown at a time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Posing {
-    /// The device: pictures. The scene stays at rest.
+    /// Device, for pictures. The scene stays at rest.
     Device,
-    /// The processor: what is compared with a reference that reads the scene.
+    /// Host, for comparisons with a reference that reads the scene.
     Host,
 }
 
-/// When a scene is shown.
+/// Times at which a scene is shown.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Shown {
-    /// At first.
+    /// First time, seconds.
     pub(super) seconds: f64,
     pub(super) posing: Posing,
-    /// All times at which the command shows it, where it shows frames, in all shares of them.
+    /// All times at which the command shows the scene, if it shows frames, over all shares.
     pub(super) times: Vec<f64>,
 }
 
-/// Reads a scene as the command line asks, shown at a time or at rest, and chooses the camera; warns of what
-/// was left out of it.
+/// Reads a scene as the command line asks, shown at a time or at rest, and chooses the camera; warns of data
+/// that was left out.
 pub(super) fn read_scene(
     name: &OsStr,
     reading: &SceneArguments,
@@ -93,10 +93,10 @@ pub(super) fn read_scene(
     Ok((loaded, chosen))
 }
 
-/// Loads what `name` stands for; `fps` is of numbered files.
+/// Loads the scene that `name` stands for; `fps` belongs to numbered files.
 ///
 /// # Errors
-/// Frames per second where nothing has frames.
+/// Frames per second are given for a scene without frames.
 pub(super) fn load_scene(name: &OsStr, fps: Option<f64>, has_frames: bool) -> Result<LoadedScene, AppError> {
     if fps.is_some() && !has_frames && !is_pattern(Path::new(name)) {
         return Err(AppError::usage(
@@ -114,9 +114,9 @@ pub(super) fn prepare(
     reading: &SceneArguments,
     shown: Option<&Shown>,
 ) -> Result<LoadedScene, AppError> {
-    // Cheap to refuse, so before the scene is read.
+    // A faulty environment is quick to refuse, so it is read before the scene.
     let environment = reading.environment()?;
-    // A time that is not that of --time is that of a frame.
+    // A time that does not come from --time is that of a frame.
     let mut loaded = load_scene(name, reading.fps, shown.is_some() && reading.time.is_none())?;
     if reading.alpha == Switch::Off {
         loaded.close_holes();
@@ -144,7 +144,7 @@ pub(super) fn prepare(
     Ok(loaded)
 }
 
-/// Makes images smaller where the device does not hold all of them, and warns of it.
+/// Makes images smaller if the device cannot hold all of them, and warns of it.
 pub(super) fn fit_images(
     loaded: &mut LoadedScene,
     needs: &Needs,
@@ -157,8 +157,8 @@ pub(super) fn fit_images(
     Ok(())
 }
 
-/// Does `work` with a progress line; a signal asks it to end early. `is_kept` says from which progress on
-/// something is finished that an early end keeps: before that, a signal does not wait for it.
+/// Does `work` with a progress line; a signal asks it to end early. `is_kept` tells from which progress on
+/// there is a finished part that an early end keeps: before that, a signal does not wait for it.
 pub(super) fn with_progress<T>(
     interrupt: &Interrupt,
     is_kept: impl Fn(&Progress<'_>) -> bool,

@@ -1,4 +1,4 @@
-//! Subject of a comparison: what its options ask for, and the scene that they ask it of.
+//! Subject of a comparison: the request of its options, and the scene.
 
 use super::steps::{Posing, Shown, fit_images, read_scene};
 use crate::arguments::CompareArguments;
@@ -15,13 +15,13 @@ use rasray_report::{CameraRecord, SceneRecord};
 use rasray_scene::needs::Needs;
 use rasray_scene_source::{ChosenCamera, LoadedScene};
 
-/// Rays per set unless told.
+/// Default number of rays per set.
 const DEFAULT_RAYS: u32 = 200_000;
 
-/// Sets of rays unless told.
+/// Default sets of rays.
 const DEFAULT_SETS: [RaySet; 2] = [RaySet::Incoherent, RaySet::Camera];
 
-/// Options of a comparison, checked as far as that goes without the scene.
+/// Request of a comparison, checked as far as possible without the scene.
 #[derive(Clone)]
 pub(super) struct ComparisonRequest<'a> {
     given: &'a CompareArguments,
@@ -32,7 +32,7 @@ pub(super) struct ComparisonRequest<'a> {
     hits_files: Vec<HitsFile>,
 }
 
-/// A comparison whose scene is read.
+/// Subject of a comparison whose scene is read.
 pub(super) struct Subject<'a> {
     asked: ComparisonRequest<'a>,
     loaded: LoadedScene,
@@ -42,7 +42,7 @@ pub(super) struct Subject<'a> {
 
 impl<'a> ComparisonRequest<'a> {
     /// # Errors
-    /// Options that are of hard cases or that systems do not have, and files that cannot be read.
+    /// An option belongs to hard cases, systems do not have it, or a file cannot be read.
     pub(super) fn of(given: &'a CompareArguments) -> Result<Self, AppError> {
         if given.full || given.check {
             let option = if given.full { "--full" } else { "--check" };
@@ -64,7 +64,7 @@ impl<'a> ComparisonRequest<'a> {
     /// Reads the scene of the comparison.
     ///
     /// # Errors
-    /// The scene cannot be read, or does not have what is asked for.
+    /// The scene cannot be read, or does not have the requested parts.
     pub(super) fn read(mut self) -> Result<Subject<'a>, AppError> {
         let work = &self.given.work;
         let shown =
@@ -78,21 +78,21 @@ impl<'a> ComparisonRequest<'a> {
 }
 
 impl Subject<'_> {
-    /// Warns of what systems cannot show of the image.
+    /// Warns of parts of the image that systems cannot show.
     pub(super) fn warn(&self) {
         let ComparisonRequest { systems, frame, given, .. } = &self.asked;
         let shortcomings = systems.iter().filter_map(|system| system.shortcoming(frame.workload()));
         shortcomings.filter(|_| given.image).for_each(|text| terminal::warn(&with_flags(&text)));
     }
 
-    /// Makes images of the scene smaller where the device does not hold them.
+    /// Makes images of the scene smaller if the device cannot hold them.
     pub(super) fn fit(&mut self, backend: &dyn Backend) -> Result<(), AppError> {
         fit_images(&mut self.loaded, &self.needs, backend)?;
         count_not_uploaded(&mut self.loaded, &self.chosen.camera, &self.needs);
         Ok(())
     }
 
-    /// The job of all its cells, which keeps nothing but its runs.
+    /// Makes the job of all its cells, which keeps only its runs.
     pub(super) fn job(&self) -> CompareJob<'_> {
         let ComparisonRequest { given, frame, systems, ray_sets, rays_file, hits_files } = &self.asked;
         CompareJob {
@@ -115,23 +115,23 @@ impl Subject<'_> {
         }
     }
 
-    /// Its cells.
+    /// Returns the cells of the comparison.
     pub(super) fn cells(&self) -> CellList {
         compare_cells(version_text(), &self.loaded, &self.job())
     }
 
-    /// Records of the scene and of the camera for a report.
+    /// Returns the records of the scene and of the camera for a report.
     pub(super) fn records(&self) -> (SceneRecord, Option<CameraRecord>) {
         (self.loaded.record(), Some(self.chosen.record()))
     }
 
-    /// The camera in words.
+    /// Describes the camera in words.
     pub(super) fn camera(&self) -> String {
         self.chosen.described()
     }
 }
 
-/// The generated sets that are wanted, each once, in the order given.
+/// Returns the generated sets that are wanted, each once, in the order given.
 fn ray_sets(given: &CompareArguments) -> Result<Vec<RaySet>, AppError> {
     let mut kept = Vec::new();
     for set in &given.ray_set {

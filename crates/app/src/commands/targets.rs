@@ -11,10 +11,10 @@ use rasray_report::{Campaign, Report, campaign_markdown, json_escaped, markdown}
 use std::ffi::OsStr;
 use std::path::Path;
 
-/// Destinations of results.
+/// Destinations of the results.
 pub(super) struct Targets {
     report: Option<Destination>,
-    /// A report that takes a line for each cell.
+    /// Report with a line for each cell.
     lines: Option<Destination>,
     html: Option<Destination>,
     markdown: Option<Destination>,
@@ -22,7 +22,7 @@ pub(super) struct Targets {
 }
 
 impl Targets {
-    /// Checks every place before anything is begun.
+    /// Checks every destination before any work begins.
     pub(super) fn check(given: &CompareArguments, scene: &OsStr) -> Result<Self, AppError> {
         let report = destination(given.report.as_deref())?;
         let html = destination(given.html.as_deref())?;
@@ -56,7 +56,7 @@ impl Targets {
         Ok(Self { report, lines, html, markdown, save })
     }
 
-    /// The report that takes a line for each cell.
+    /// Returns the report with a line for each cell.
     pub(super) fn lines(&self) -> Option<&Destination> {
         self.lines.as_ref()
     }
@@ -71,7 +71,7 @@ impl Targets {
         [&self.report, &self.html, &self.markdown].into_iter().flatten().any(Destination::is_stdout)
     }
 
-    /// Destinations of rays and hits.
+    /// Returns the destinations of rays and hits.
     pub(super) fn save(&self) -> &SaveTargets {
         &self.save
     }
@@ -81,7 +81,7 @@ impl Targets {
         [&self.report, &self.lines, &self.html, &self.markdown].into_iter().any(Option::is_some)
     }
 
-    /// Writes the report and the page where they are wanted.
+    /// Writes the report and the page, if they are wanted.
     pub(super) fn write(
         &self,
         report: &Report,
@@ -101,18 +101,18 @@ impl Targets {
 /// Form of a report.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Form {
-    /// With everything that was measured.
+    /// JSON with everything that was measured.
     Json,
-    /// A table of all ray sets.
+    /// Markdown table of all ray sets.
     Markdown,
-    /// A page.
+    /// HTML page.
     Page,
-    /// A row per run, of campaigns.
+    /// CSV of campaigns, with a row per run.
     Csv,
 }
 
 impl Form {
-    /// The one that a file's name asks for.
+    /// Returns the form that a file's name asks for.
     pub(super) fn named(path: &Path) -> Option<Self> {
         let extension = path.extension()?.to_str()?.to_ascii_lowercase();
         Some(match extension.as_str() {
@@ -124,7 +124,7 @@ impl Form {
         })
     }
 
-    /// The bytes of the file of a campaign.
+    /// Returns the bytes of the file of a campaign.
     pub(super) fn of_campaign(self, campaign: &Campaign) -> Result<Vec<u8>, AppError> {
         match self {
             Self::Json => Err(AppError::usage(
@@ -137,7 +137,7 @@ impl Form {
         }
     }
 
-    /// The bytes of the file.
+    /// Returns the bytes of the file of a report.
     pub(super) fn of(self, report: &Report, figures: &Figures) -> Result<Vec<u8>, AppError> {
         Ok(match self {
             Self::Json => json_escaped(&report.to_json()).into(),

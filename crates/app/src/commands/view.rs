@@ -1,4 +1,4 @@
-//! `rasray view`.
+//! Command `rasray view`.
 
 #[cfg(not(feature = "viewer"))]
 pub(crate) use without_window::view;
@@ -14,7 +14,7 @@ mod without_window {
     use crate::error::AppError;
     use crate::interrupt::Interrupt;
 
-    /// Says how to get the window.
+    /// Explains how to get the window.
     ///
     /// # Errors
     /// Always.

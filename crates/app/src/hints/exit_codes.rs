@@ -1,4 +1,4 @@
-//! Exit codes of libraries' errors.
+//! Exit codes of errors of libraries.
 
 use super::{DEFECT, help};
 use crate::error::{EXIT_DEFECT, EXIT_DEVICE, EXIT_REFUSED, EXIT_USAGE};
@@ -6,8 +6,8 @@ use rasray_experiment::{
     AdsError, ExperimentError, FrameError, GpuSceneError, Holder, IntegratorError, TracerError,
 };
 
-/// The exit code: where the advice is to report a defect [`EXIT_DEFECT`], whatever failed; of all others only
-/// what a device lacks or fails at is [`EXIT_DEVICE`].
+/// Returns the exit code: [`EXIT_DEFECT`] if the advice is to report a defect, whatever failed; otherwise
+/// [`EXIT_DEVICE`] only for a missing feature or a failure of a device.
 pub(crate) fn exit_code(error: &ExperimentError) -> u8 {
     if help(error) == DEFECT {
         return EXIT_DEFECT;
@@ -83,7 +83,7 @@ fn code_of_frame(error: &FrameError) -> u8 {
     }
 }
 
-/// The exit code of a window that cannot be, or shows no picture.
+/// Returns the exit code of a window that cannot be opened, or shows no picture.
 #[cfg(feature = "viewer")]
 pub(crate) fn code_of_viewer(error: &rasray_viewer::ViewerError) -> u8 {
     use rasray_viewer::ViewerError;

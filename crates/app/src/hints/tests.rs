@@ -32,7 +32,7 @@ fn scene() -> String {
     "hall".to_owned()
 }
 
-/// Holds two lines and an exit code against what they must say.
+/// Checks the exit code and the two lines of an error.
 fn check(code: u8, message: &str, help: &str, error: impl Into<AppError>) {
     let error = error.into();
     let lines = error.lines();
@@ -309,7 +309,7 @@ fn windows_say_what_they_need() {
     check(2, "no direction", "--target", V::from(LoadError::NoDirection));
 }
 
-/// The first error of a chain that is of a type.
+/// Returns the first error of a type in a chain.
 fn found<T: Error + 'static>(error: &AppError) -> Option<&T> {
     let chain = std::iter::successors(error.source(), |error| (*error).source());
     chain.into_iter().find_map(|error| error.downcast_ref())

@@ -1,4 +1,4 @@
-//! The cells of a comparison: those that are there already, those that are made, and the report of all.
+//! Cells of a comparison: the existing ones, those that are made, and the report of all.
 
 use super::destination::Destination;
 use crate::error::AppError;
@@ -16,20 +16,20 @@ use std::path::Path;
 /// Advice for lines that do not go together.
 const SAME: &str = "name another file, or leave --resume out to make all cells anew";
 
-/// The lines of a file, each the report of one cell.
+/// Lines of a file, each the report of one cell.
 #[derive(Debug)]
 pub(crate) struct CellLines {
-    /// Each with its record.
+    /// Reports of the cells, each with the record of its cell.
     pub(crate) lines: Vec<(CellRecord, Report)>,
     /// True if the last line was cut short, and is left out.
     is_torn: bool,
 }
 
-/// Reads the cells of a file; none where there is no file. A last line that was cut short by a kill is left
-/// out, with a warning.
+/// Reads the cells of a file; none if there is no file. A last line that was cut short by a kill is left out,
+/// with a warning.
 ///
 /// # Errors
-/// The file cannot be read, or another line of it is no report of a cell.
+/// The file cannot be read, or another line of it is not the report of a cell.
 pub(crate) fn read_cells(path: &Path) -> Result<CellLines, AppError> {
     let unreadable =
         |message: String| AppError::input(path, message, "see that you may read it, and that it is text");
@@ -64,7 +64,7 @@ pub(crate) fn read_cells(path: &Path) -> Result<CellLines, AppError> {
     Ok(CellLines { lines, is_torn })
 }
 
-/// Difference between the subjects of two lines, in words; `None` where both are of one comparison.
+/// Describes the difference between the subjects of two lines; `None` if both are of one comparison.
 pub(crate) fn difference(line: &Report, other: &Report) -> Option<String> {
     let device = |report: &Report| format!("{} ({})", report.device.name, report.device.driver);
     let list = |report: &Report| report.cell.as_ref().map(|cell| (cell.list.clone(), cell.cells));
@@ -80,8 +80,8 @@ pub(crate) fn difference(line: &Report, other: &Report) -> Option<String> {
     })
 }
 
-/// The report of the runs of these lines, in the order of their places; `None` without any. What they have in
-/// common is as the first one says it.
+/// Assembles the report of the runs of these lines, in the order of their places; `None` without lines. Their
+/// common fields are taken from the first line.
 pub(crate) fn assembled<'a>(lines: impl IntoIterator<Item = &'a Report>) -> Option<Report> {
     let mut lines = lines.into_iter().peekable();
     let first = (*lines.peek()?).clone();
@@ -99,14 +99,14 @@ pub(crate) fn assembled<'a>(lines: impl IntoIterator<Item = &'a Report>) -> Opti
     Some(Report { camera, ..report })
 }
 
-/// A file that a line is added to for each cell.
+/// File that gets a line for each cell.
 struct CellFile {
     place: Destination,
-    /// Once it is this command's.
+    /// Open file, once this command has taken it.
     file: Option<File>,
 }
 
-/// The cells of a comparison: what is there, and what is added.
+/// Cells of a comparison: the existing ones, and those that are added.
 pub(crate) struct Cells {
     list: CellList,
     origin: Origin,
@@ -116,8 +116,8 @@ pub(crate) struct Cells {
 }
 
 impl Cells {
-    /// The cells of `list`, as this program (`origin`) makes them on a device. A file takes a line for each;
-    /// `resume` keeps the lines that are there.
+    /// Opens the cells of `list`, as this program (`origin`) makes them on a device. A file gets a line for
+    /// each; `resume` keeps the existing lines.
     ///
     /// # Errors
     /// The file cannot be read, another command writes it, or a line of it is of another program, device or
@@ -156,26 +156,27 @@ impl Cells {
             let text: String = self.lines().map(text_of).collect();
             place.put(text.as_bytes(), interrupt)?;
         }
-        // From now on it is this command's.
+        // From now on the file belongs to this command.
         self.file.as_mut().map_or(Ok(()), |file| file.take().map(|_| ()))
     }
 
-    /// The lines of the cells that are there, in their order.
+    /// Returns the lines of the existing cells, in their order.
     pub(crate) fn lines(&self) -> impl Iterator<Item = &Report> {
         self.made.values()
     }
 
-    /// Cells of the comparison.
+    /// Returns the cells of the comparison.
     pub(crate) fn list(&self) -> &CellList {
         &self.list
     }
 
-    /// Cells that are there.
+    /// Returns the number of existing cells.
     pub(crate) fn count(&self) -> usize {
         self.made.len()
     }
 
-    /// Places of the cells that are missing, of every group or of those that a share of the work gets.
+    /// Returns the places of the missing cells, of every group or of the groups that belong to a share of the
+    /// work.
     ///
     /// # Errors
     /// The share has no group.
@@ -199,11 +200,11 @@ impl Cells {
         Ok(groups.flat_map(|(_, places)| places.clone()).filter(missing).collect())
     }
 
-    /// Adds the run of a cell, with its line in the file; a run that is not whole gets none, so that it is
-    /// made again.
+    /// Adds the run of a cell, with its line in the file; an incomplete run gets no line, so that it is made
+    /// again.
     ///
     /// # Errors
-    /// The file takes no line, or another command writes it.
+    /// The file accepts no line, or another command writes it.
     pub(crate) fn add(
         &mut self,
         place: usize,
@@ -221,18 +222,18 @@ impl Cells {
         Ok(())
     }
 
-    /// The report of all cells that are there, by the command line of this process; `None` without any.
+    /// Returns the report of all existing cells, with the command line of this process; `None` without cells.
     pub(crate) fn report(&self) -> Option<Report> {
         let report = assembled(self.made.values())?;
         Some(Report { command: self.origin.command.clone(), ..report })
     }
 
-    /// Place in [`Self::report`] of the run of the cell at a place.
+    /// Returns the place in [`Self::report`] of the run of the cell at a place.
     pub(crate) fn run(&self, place: usize) -> usize {
         self.made.range(..place).count()
     }
 
-    /// Says how many cells the file holds.
+    /// Notes how many cells the file holds.
     pub(crate) fn note(&self) {
         if let Some(file) = &self.file {
             let (made, all) = (self.made.len(), self.list.len());
@@ -241,13 +242,13 @@ impl Cells {
     }
 }
 
-/// A line of the file.
+/// Returns a line of the file.
 pub(crate) fn text_of(line: &Report) -> String {
     json_escaped(&format!("{}\n", line.to_json_line()))
 }
 
 impl CellFile {
-    /// Opens the file for lines behind its last.
+    /// Opens the file for lines after its last.
     fn take(&mut self) -> Result<&mut File, AppError> {
         let path = self.place.named();
         let failed = |message: String| AppError::refused(format!("{}: {message}", path.display()), FREE);
@@ -266,7 +267,7 @@ impl CellFile {
         }
     }
 
-    /// Adds a line at once. The first of a command that resumes nothing takes the place of the whole file.
+    /// Appends a line at once. The first line of a command that does not resume replaces the whole file.
     fn add(&mut self, line: &str, interrupt: &Interrupt) -> Result<(), AppError> {
         let Some(file) = &mut self.file else {
             self.place.put(line.as_bytes(), interrupt)?;
@@ -279,5 +280,5 @@ impl CellFile {
     }
 }
 
-/// Advice for a file that takes no line.
+/// Advice for a file that accepts no line.
 const FREE: &str = "free space or see that you may write to it, then run again with --resume";

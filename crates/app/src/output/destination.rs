@@ -1,4 +1,5 @@
-//! A file that is whole or not there: written next to its place, synchronised, then renamed.
+//! Destination of a file, which is either whole or absent: it is written next to its place, synchronised,
+//! then renamed.
 
 use crate::error::AppError;
 use crate::interrupt::Interrupt;
@@ -9,47 +10,47 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use tempfile::NamedTempFile;
 
-/// Suffix of the names of unfinished files: that of no file of anybody else, since what is left of them is
-/// removed.
+/// Suffix of the names of unfinished files. No other program uses it, since remaining files of this suffix
+/// are removed.
 const UNFINISHED: &str = ".rasray-tmp";
 
-/// Random letters and digits in their names.
+/// Number of random letters and digits in these names.
 const RANDOM: usize = 6;
 
-/// Destination of a file. Checked when it is made, before any work is done for the file.
+/// Destination of a file. It is checked when it is made, before any work is done for the file.
 #[derive(Clone, Debug)]
 pub struct Destination {
-    /// As the user wrote it, for messages.
+    /// Path as the user wrote it, for messages.
     named: PathBuf,
-    /// With links followed.
+    /// Path with links followed.
     path: PathBuf,
     kind: Kind,
 }
 
-/// Way in which bytes get to a place.
+/// Kind of a destination, which decides how bytes get there.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Kind {
-    /// Written next to it and renamed.
+    /// File, written next to its place and renamed.
     File,
-    /// A device or a pipe: written directly, as nothing can be renamed over it.
+    /// Device or pipe, written directly, because nothing can be renamed over it.
     Special,
     /// Standard output.
     Stdout,
 }
 
-/// The name that stands for standard output; a file of that name is `./-`.
+/// Name that stands for standard output; a file of that name is `./-`.
 const STDOUT: &str = "-";
 
-/// Links that are followed, one after the other.
+/// Largest number of links that are followed, one after another.
 const LINKS: usize = 40;
 
 impl Destination {
-    /// Checks that a file can be put at `path`: the folder exists and takes new files, and no folder
-    /// is in the way. A link is followed, so that it stays a link, also where it leads to no file yet. `-` is
-    /// standard output.
+    /// Checks that a file can be put at `path`: the folder exists and accepts new files, and no folder is in
+    /// the way. A link is followed, so that it stays a link, even if it leads to no file yet. `-` is standard
+    /// output.
     ///
     /// # Errors
-    /// Names the path, what is in the way and what to do.
+    /// The message names the path, the obstacle and the remedy.
     pub fn check(path: &Path) -> Result<Self, AppError> {
         if path == Path::new(STDOUT) {
             return Ok(Self { named: path.to_owned(), path: path.to_owned(), kind: Kind::Stdout });
@@ -82,8 +83,8 @@ impl Destination {
             ));
         }
         destination.sweep();
-        // Only making a file tells whether a file can be made: permissions, read-only file systems
-        // and name lengths all show here, before hours of rendering.
+        // Only making a file tells whether a file can be made: permissions, read-only file systems and name
+        // lengths all show here, before hours of rendering.
         match destination.begin() {
             Ok(_) => Ok(destination),
             Err(error) => Err(AppError::input(
@@ -94,7 +95,7 @@ impl Destination {
         }
     }
 
-    /// True if two names lead to the same file, or both to standard output.
+    /// True if two destinations lead to the same file, or both to standard output.
     pub fn same_as(&self, other: &Self) -> bool {
         match (self.is_stdout(), other.is_stdout()) {
             (false, false) => absolute(&self.path) == absolute(&other.path),
@@ -112,15 +113,15 @@ impl Destination {
         self.kind == Kind::Stdout
     }
 
-    /// The path as the user wrote it.
+    /// Returns the path as the user wrote it.
     pub fn named(&self) -> &Path {
         &self.named
     }
 
-    /// Puts a file with these bytes in place, and says so on stderr unless quiet was asked for.
+    /// Puts a file with these bytes in place, and reports it on stderr unless quiet was asked for.
     ///
     /// # Errors
-    /// As [`Self::put`].
+    /// As for [`Self::put`].
     pub fn write(&self, bytes: &[u8], interrupt: &Interrupt) -> Result<(), AppError> {
         self.put(bytes, interrupt)?;
         if !self.is_stdout() {
@@ -129,8 +130,8 @@ impl Destination {
         Ok(())
     }
 
-    /// Puts a file with these bytes in place. Whatever fails, a file that was there before stays as it was
-    /// and nothing else is left behind; an end at once through `interrupt` leaves nothing either.
+    /// Puts a file with these bytes in place. After any failure, a file that was there before is unchanged
+    /// and nothing else is left behind; an immediate end through `interrupt` leaves nothing either.
     ///
     /// # Errors
     /// [`AppError::Refused`], as the bytes exist and could not be kept.
@@ -156,24 +157,25 @@ impl Destination {
 
     fn replace(&self, bytes: &[u8], interrupt: &Interrupt) -> io::Result<()> {
         let (_unfinished, mut file) = interrupt.unfinished(|| self.begin())?;
-        // Tells other runs that somebody is writing; where a file system has no locks, none of them sweeps.
+        // The lock tells other runs that this file is being written; on a file system without locks, no run
+        // removes remains.
         _ = file.as_file().try_lock();
         if let Ok(existing) = std::fs::metadata(&self.path) {
             file.as_file().set_permissions(existing.permissions())?;
         }
-        // Through the file itself, as errors of the pair name a path that says nothing to anybody.
+        // The bytes are written through the file itself, because errors of the pair name a temporary path.
         file.as_file_mut().write_all(bytes)?;
         file.as_file().sync_all()?;
         file.persist(&self.path)?;
-        // The rename itself is safe only once the folder is; not every file system can do this.
+        // The rename is durable only after the folder is synchronised, which not every file system supports.
         if let Ok(folder) = File::open(self.folder()) {
             _ = folder.sync_all();
         }
         Ok(())
     }
 
-    /// A file in the same folder under a name of its own, with the permissions of any new file; removed when
-    /// it is dropped.
+    /// Makes a file in the same folder under a name of its own, with the permissions of any new file; the
+    /// file is removed when it is dropped.
     fn begin(&self) -> io::Result<NamedTempFile> {
         tempfile::Builder::new()
             .prefix(&self.unfinished_prefix())
@@ -196,7 +198,7 @@ impl Destination {
         name
     }
 
-    /// Removes what runs that were killed while they wrote this very file have left. A file that somebody
+    /// Removes the remains of runs that were killed while they wrote this very file. A file that another run
     /// still writes is locked and stays.
     fn sweep(&self) {
         let prefix = self.unfinished_prefix();
@@ -213,25 +215,25 @@ impl Destination {
             }
             let Ok(file) = OpenOptions::new().write(true).open(entry.path()) else { continue };
             if file.try_lock().is_ok() {
-                // Whoever comes second finds nothing to remove.
+                // If two runs remove the file, the second finds nothing.
                 _ = std::fs::remove_file(entry.path());
             }
         }
     }
 }
 
-/// Target of a name: the end of its links, whether or not there is a file yet.
+/// Returns the target of a name: the end of its links, whether or not the file exists yet.
 fn followed(path: &Path) -> PathBuf {
     let mut path = path.to_owned();
     for _ in 0..LINKS {
         let Ok(target) = std::fs::read_link(&path) else { break };
-        // The target of a link is named from the link's own folder.
+        // The target of a link is relative to the link's own folder.
         path = path.parent().map_or_else(|| target.clone(), |folder| folder.join(&target));
     }
     std::fs::canonicalize(&path).unwrap_or(path)
 }
 
-/// A path without links or `..`, whether or not there is a file yet.
+/// Returns a path without links or `..`, whether or not the file exists yet.
 fn absolute(path: &Path) -> PathBuf {
     let folder = match path.parent() {
         Some(folder) if !folder.as_os_str().is_empty() => folder,

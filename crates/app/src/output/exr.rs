@@ -14,13 +14,13 @@ use std::io::Cursor;
 /// Metadata in the header of an image.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Metadata {
-    /// The scene's name.
+    /// Name of the scene.
     pub scene: String,
-    /// Such as `mmrt`.
+    /// Name of the system, such as `mmrt`.
     pub system: String,
-    /// Such as `robust`.
+    /// Name of the preset, such as `robust`.
     pub preset: String,
-    /// Such as `path`.
+    /// Name of the integrator, such as `path`.
     pub integrator: String,
     /// Samples per pixel that were asked for.
     pub spp: u32,
@@ -30,37 +30,37 @@ pub struct Metadata {
     pub seed: u32,
     /// Version of the program that made the picture.
     pub version: String,
-    /// The key of the file; absent where it holds less than was asked for.
+    /// Key of the file; absent if it holds less than was asked for.
     pub key: Option<String>,
-    /// Name and version of its denoiser; absent without one.
+    /// Name and version of the denoiser; absent for a picture with noise.
     pub denoised: Option<String>,
-    /// Picture, and share of its samples, that it holds; absent: all.
+    /// Picture of which the file holds a share of the samples; absent if it holds all.
     pub part: Option<PartOf>,
 }
 
-/// A share of a picture's samples.
+/// Share of a picture's samples.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PartOf {
-    /// The key of the picture, which all its parts have.
+    /// Key of the picture, which all its parts have.
     pub picture: String,
-    /// The share.
+    /// Share of the samples.
     pub shard: Shard,
 }
 
-/// The attributes of a part.
+/// Name of the attribute with the picture's key, in parts.
 pub(super) const PICTURE: &str = "rasrayPicture";
 pub(super) const SHARD: &str = "rasrayShard";
-/// Samples in each pixel's mean; of parts, in its sum.
+/// Name of the channel with the number of samples in each pixel's mean or, in parts, in its sum.
 pub(super) const SAMPLES: &str = "samples";
 pub(super) const VERSION: &str = "rasrayVersion";
 
-/// Text as the format holds it: one byte a character.
+/// Converts text to the format's encoding: one byte per character.
 fn text(value: &str) -> Text {
     let plain: String = value.chars().map(|c| if c.is_ascii() { c } else { '?' }).collect();
     Text::new_or_none(&plain).unwrap_or_else(|| Text::from("?"))
 }
 
-/// The bytes of an EXR file of all images of `output`; of a part with sums in place of means.
+/// Returns the bytes of an EXR file of all images of `output`; a part holds sums in place of means.
 ///
 /// # Errors
 /// The message of the encoder.
@@ -99,7 +99,7 @@ pub fn encode(output: &RenderOutput, metadata: &Metadata) -> std::result::Result
     for (name, value) in words.iter().filter_map(|(name, value)| Some((*name, value.as_ref()?))) {
         attributes.other.insert(Text::from(name), AttributeValue::Text(text(value)));
     }
-    // As text where the number may exceed what a signed attribute holds.
+    // The seed is text, because the number may exceed the range of a signed attribute.
     attributes.other.insert(Text::from("seed"), AttributeValue::Text(text(&metadata.seed.to_string())));
     for (name, value) in [("spp", metadata.spp), ("samples", metadata.samples)] {
         let value = i32::try_from(value).unwrap_or(i32::MAX);
@@ -171,7 +171,8 @@ mod tests {
     fn equal_images_are_equal_files() {
         let encoded = || encode(&output(), &metadata()).expect("a small image");
         let expected = encoded();
-        // Each map of the encoder has an order of its own: without ours nearly all of these differ.
+        // Each map of the encoder has an order of its own: unless they are sorted, nearly all of these files
+        // differ.
         assert!((0..8).all(|_| encoded() == expected));
         let mut cut = expected[..40].to_vec();
         assert_eq!(finish(&mut cut), None);

@@ -1,4 +1,4 @@
-//! Channels of an EXR that are read where they are: encoding copies a block of rows at a time, not the image.
+//! Channels of an EXR that are read in place: encoding copies a block of rows at a time, not the image.
 
 use exr::block::{BlockIndex, UncompressedBlock, lines::LineRefMut};
 use exr::image::write::channels::{ChannelsWriter, WritableChannels};
@@ -6,11 +6,11 @@ use exr::math::{RoundingMode, Vec2};
 use exr::meta::attribute::{ChannelDescription, ChannelList, LevelMode, SampleType};
 use exr::meta::header::Header;
 
-/// One number per pixel, rows from the top.
+/// Values of a channel, one number per pixel, rows from the top.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Values<'a> {
     Floats(&'a [f32]),
-    /// One of three.
+    /// One component of vectors of three.
     Axis(&'a [[f32; 3]], usize),
     Whole(&'a [u32]),
 }
@@ -23,7 +23,7 @@ impl Values<'_> {
         }
     }
 
-    /// Writes those from pixel `first` on, as many as there are bytes for.
+    /// Writes the values from pixel `first` on, as many as there are bytes for.
     fn write(self, first: usize, bytes: &mut [u8]) {
         let words = bytes.chunks_exact_mut(size_of::<u32>());
         match self {
@@ -43,7 +43,7 @@ impl Values<'_> {
     }
 }
 
-/// Names with their values, in the order of names.
+/// Channels: names with their values, in the order of names.
 #[derive(Clone, Debug)]
 pub(super) struct Channels<'a>(pub Vec<(&'static str, Values<'a>)>);
 

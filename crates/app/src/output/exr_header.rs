@@ -1,16 +1,16 @@
-//! The header of an EXR file of one part, byte by byte: what the encoder leaves open is fixed, and a checksum
-//! makes damage show. The format itself has none.
+//! Header of an EXR file of one part, byte by byte: values that the encoder leaves open are fixed, and a
+//! checksum detects damage, since the format itself has none.
 
 use sha2::{Digest, Sha256};
 use std::ops::Range;
 
-/// The attribute that holds the SHA-256 of all other bytes of the file, in hexadecimal.
+/// Name of the attribute that holds the SHA-256 of all other bytes of the file, in hexadecimal.
 pub(super) const CHECKSUM: &str = "rasrayChecksum";
 
-/// The checksum before it is known, as long as it will be.
+/// Placeholder of the checksum, of the same length.
 pub(super) const NO_CHECKSUM: &str = "0000000000000000000000000000000000000000000000000000000000000000";
 
-/// Start of a header, bytes: behind magic number and version.
+/// Start of a header in bytes, after magic number and version.
 const FIRST: usize = 8;
 
 const MAGIC: [u8; 4] = [0x76, 0x2f, 0x31, 0x01];
@@ -20,9 +20,9 @@ struct Attribute<'a> {
     value: Range<usize>,
 }
 
-/// All attributes, in their order, and where the header ends. `None` where it is cut short.
+/// Returns all attributes, in their order, and the end of the header. `None` if the header is cut short.
 fn attributes(bytes: &[u8]) -> Option<(Vec<Attribute<'_>>, usize)> {
-    // Name, type, both ended by 0, size and value; an empty name ends the header.
+    // An attribute is a name and a type, both ended by 0, a size and a value; an empty name ends the header.
     let mut found = Vec::new();
     let mut at = FIRST;
     while *bytes.get(at)? != 0 {
@@ -45,12 +45,12 @@ fn value_of(bytes: &[u8], name: &str) -> Option<Range<usize>> {
     found.into_iter().find(|attribute| attribute.name == name.as_bytes()).map(|attribute| attribute.value)
 }
 
-/// The text of an attribute; `None` where the file has no such attribute, or no whole header.
+/// Returns the text of an attribute; `None` if the file has no such attribute, or no whole header.
 pub(super) fn text<'a>(bytes: &'a [u8], name: &str) -> Option<&'a str> {
     std::str::from_utf8(&bytes[value_of(bytes, name)?]).ok()
 }
 
-/// True if a file begins as an EXR does, with a whole header.
+/// True if a file begins like an EXR, with a whole header.
 pub(super) fn is_readable(bytes: &[u8]) -> bool {
     bytes.starts_with(&MAGIC) && attributes(bytes).is_some()
 }
@@ -68,8 +68,8 @@ fn checksum(bytes: &[u8], place: &Range<usize>) -> String {
 }
 
 /// Orders the attributes by their names, since the encoder keeps them in a map that has no order, and equal
-/// images are to be equal files; then fills in the checksum. `None` where the header is cut short or has no
-/// space for a checksum.
+/// images must be equal files; then fills in the checksum. `None` if the header is cut short or has no space
+/// for a checksum.
 pub(super) fn finish(bytes: &mut [u8]) -> Option<()> {
     let (found, end) = attributes(bytes)?;
     let mut begin = FIRST;
@@ -78,7 +78,7 @@ pub(super) fn finish(bytes: &mut [u8]) -> Option<()> {
         whole.push(bytes[begin..attribute.value.end].to_vec());
         begin = attribute.value.end;
     }
-    // Names are unique and come first.
+    // Names are unique, and an attribute begins with its name.
     whole.sort();
     bytes[FIRST..end].copy_from_slice(&whole.concat());
     let place = value_of(bytes, CHECKSUM).filter(|place| place.len() == NO_CHECKSUM.len())?;
@@ -87,7 +87,7 @@ pub(super) fn finish(bytes: &mut [u8]) -> Option<()> {
     Some(())
 }
 
-/// The number of an attribute of four bytes; `None` where the file has no such attribute.
+/// Returns the number of an attribute of four bytes; `None` if the file has no such attribute.
 pub(super) fn number(bytes: &[u8], name: &str) -> Option<i32> {
     Some(i32::from_le_bytes(bytes[value_of(bytes, name)?].try_into().ok()?))
 }

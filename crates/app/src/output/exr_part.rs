@@ -1,4 +1,4 @@
-//! Reads a share of a picture's samples back from its EXR.
+//! Reader of a share of a picture's samples from its EXR.
 
 use super::exr::{Metadata, PICTURE, PartOf, SAMPLES, SHARD, VERSION};
 use super::exr_header::{is_readable, is_whole, number, text};
@@ -8,19 +8,19 @@ use rasray_experiment::{Aov, AovImage, FilmSums, RenderOutput, Shard};
 use std::collections::BTreeMap;
 use std::io::Cursor;
 
-/// A share of a picture's samples, its header read and its bytes compared with their checksum.
+/// File with a share of a picture's samples, whose header is read and whose bytes match their checksum.
 pub(crate) struct PartFile {
     bytes: Vec<u8>,
-    /// As in the file.
+    /// Metadata as in the file.
     pub(crate) metadata: Metadata,
-    /// The share that it is.
+    /// Share that the file holds.
     pub(crate) part: PartOf,
 }
 
 /// Reads the header of a part.
 ///
 /// # Errors
-/// In words: the bytes are no part, or damaged.
+/// The bytes are not a part, or damaged; the text describes it.
 pub(crate) fn decode(bytes: Vec<u8>) -> std::result::Result<PartFile, &'static str> {
     if !is_readable(&bytes) {
         return Err("is not an EXR file, or is cut short");
@@ -55,7 +55,7 @@ pub(crate) fn decode(bytes: Vec<u8>) -> std::result::Result<PartFile, &'static s
 }
 
 impl PartFile {
-    /// Sums, counts and further images; without means.
+    /// Reads sums, counts and additional images; the result has no means.
     ///
     /// # Errors
     /// The message of the decoder.
@@ -69,7 +69,7 @@ impl PartFile {
             .from_buffered(Cursor::new(self.bytes))
             .map_err(|error| error.to_string())?;
         let layer = image.layer_data;
-        // Each is taken once, so that there is no second copy.
+        // Each channel is moved out once, so that there is no second copy.
         let mut channels: BTreeMap<_, _> =
             layer.channel_data.list.into_iter().map(|one| (one.name.to_string(), one.sample_data)).collect();
         let floats = |samples| match samples {

@@ -13,10 +13,10 @@ pub enum ImageFormat {
 }
 
 impl ImageFormat {
-    /// The format that a file's extension names.
+    /// Returns the format that a file's extension names.
     ///
     /// # Errors
-    /// An extension that is neither `.png` nor `.exr`.
+    /// The extension is neither `.png` nor `.exr`.
     pub fn of(path: &Path) -> Result<Self, AppError> {
         let extension = path.extension().and_then(|text| text.to_str()).map(str::to_ascii_lowercase);
         match extension.as_deref() {

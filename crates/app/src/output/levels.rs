@@ -1,21 +1,21 @@
-//! Tells whether a finished image shows anything, and what to do if it does not.
+//! Levels of a finished image: tells whether it shows anything, and what to do if it does not.
 
 use super::format::ImageFormat;
 use rasray_experiment::RenderOutput;
 use rasray_metrics::Tone;
 
-/// The mean of a PNG's linear values, clamped to 0 to 1, below which it is nearly black. Single bright
+/// Mean of a PNG's linear values, clamped to 0 to 1, below which the image is nearly black. Single bright
 /// pixels, as noise makes them, do not hide that.
 const DARK: f64 = 0.015;
-/// The share of pixels that makes an image white.
+/// Share of the pixels above which the image is white.
 const NEARLY_ALL: f64 = 0.98;
-/// The mean that a suggested exposure gives an image: a middle grey.
+/// Mean that a suggested exposure gives an image: a middle grey.
 const MIDDLE: f64 = 0.18;
-/// Exposures that are worth suggesting, stops.
+/// Largest exposure that is worth suggesting, stops.
 const MOST_STOPS: f64 = 20.0;
 
-/// A sentence where an image is black, or as a PNG in this tone nearly black or white; linear values of
-/// an EXR are too dark for nobody unless nothing is there at all, and never too bright.
+/// Returns a sentence if an image is black, or as a PNG in this tone nearly black or white. Linear values of
+/// an EXR are too dark only if all are 0, and never too bright.
 pub fn hint(output: &RenderOutput, format: ImageFormat, tone: Tone) -> Option<String> {
     let count = output.beauty.len().max(1) as f64;
     let mean = |shown: &dyn Fn([f32; 3]) -> [f32; 3]| {
@@ -69,13 +69,13 @@ mod tests {
             text.contains("black") && text.contains("--exposure 6 ") && text.contains("--environment"),
             "{text}"
         );
-        // Its advice helps.
+        // The advice of the hint helps.
         assert_eq!(png(&dim, 6.0), None);
         let text = png(&image(&[([0.0; 3], 9)]), 0.0).expect("black");
         assert!(text.contains("black") && !text.contains("--exposure"), "no exposure helps: {text}");
         let text = png(&image(&[([8.0; 3], 99), ([0.0; 3], 1)]), 0.0).expect("white");
         assert!(text.contains("white") && text.contains("--exposure -5 "), "{text}");
-        // Noise is no picture.
+        // Noise does not make a picture.
         assert!(png(&image(&[([0.0; 3], 995), ([9.0; 3], 5)]), 0.0).is_some());
         // A small thing before nothing, a bright wall, and colours are pictures.
         assert_eq!(png(&image(&[([0.0; 3], 96), ([0.5; 3], 4)]), 0.0), None);

@@ -1,4 +1,5 @@
-//! Results on disk: images by extension, rays and hits; encoded in memory, put in place in one step.
+//! Results on disk: images by extension, rays and hits; they are encoded in memory and put in place in one
+//! step.
 
 mod cells;
 mod destination;

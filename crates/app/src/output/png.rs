@@ -1,5 +1,6 @@
-//! PNG: 8-bit sRGB. Colours times 2^exposure, clamped to [0, 1] or through the curve that was asked for, then
-//! the sRGB curve, rounded to the nearest step. No dithering: other programs can reproduce every value.
+//! PNG with 8-bit sRGB: colours times 2^exposure, clamped to [0, 1] or through the curve that was asked for,
+//! then the sRGB curve, rounded to the nearest step. There is no dithering, so that other programs can
+//! reproduce every value.
 
 use super::exr::Metadata;
 use super::stamp::{DENOISED, KEY, TONE, tone_text};
@@ -8,8 +9,8 @@ use rasray_experiment::RenderOutput;
 use rasray_metrics::{Tone, tone_map};
 use std::io::Write;
 
-/// The bytes of a PNG file of the colours, with how they are shown, and with a key and what denoised them
-/// where there is.
+/// Returns the bytes of a PNG file of the colours, with the tone in which they are shown, and with key and
+/// denoiser if the image has them.
 ///
 /// # Errors
 /// The message of the encoder.
@@ -21,18 +22,18 @@ pub fn encode(output: &RenderOutput, tone: Tone, metadata: &Metadata) -> Result<
     encode_rows(rows.map(|row| tone_map(row, tone)), [output.width, output.height], texts)
 }
 
-/// The bytes of a PNG file of pixels of three bytes each, rows from the top; the size in pixels.
+/// Returns the bytes of a PNG file of pixels of three bytes each, rows from the top; the size is in pixels.
 ///
 /// # Errors
-/// [`AppError::Refused`] with what the encoder says.
+/// [`AppError::Refused`] with the message of the encoder.
 pub(crate) fn encode_picture(pixels: &[u8], size: [u32; 2]) -> Result<Vec<u8>, AppError> {
     encode_shown(pixels, size, None, None)
 }
 
-/// As [`encode_picture`], with how linear colours became these, and what denoised them, where that is so.
+/// Encodes as [`encode_picture`], with the tone of linear colours and the denoiser, if there are any.
 ///
 /// # Errors
-/// As [`encode_picture`].
+/// As for [`encode_picture`].
 pub(crate) fn encode_shown(
     pixels: &[u8],
     size: [u32; 2],
@@ -45,7 +46,7 @@ pub(crate) fn encode_shown(
         .map_err(|error| AppError::refused(format!("the picture could not be encoded: {error}"), ""))
 }
 
-/// Encodes rows, with those texts that there are, each by its name. Errors are in words.
+/// Encodes rows, with the given texts, each under its name. Errors are in words.
 fn encode_rows<'a>(
     rows: impl Iterator<Item = impl AsRef<[u8]>>,
     size: [u32; 2],

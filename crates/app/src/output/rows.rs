@@ -1,4 +1,4 @@
-//! A report with a row per frame of an animation: JSON lines, each a whole report.
+//! Report with a row per frame of an animation: JSON lines, each a whole report.
 
 use super::destination::Destination;
 use crate::error::AppError;
@@ -8,23 +8,23 @@ use std::collections::BTreeMap;
 use std::io::ErrorKind;
 use std::path::Path;
 
-/// The report of one frame.
+/// Row with the report of one frame.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Row {
     /// Number of the frame.
     pub(crate) frame: u32,
-    /// The picture's key.
+    /// Key of the picture.
     pub(crate) key: String,
-    /// The frames that its command makes; reports of older programs do not say.
+    /// Frames that the row's command makes; absent in reports of older programs.
     pub(crate) frames: Option<FramesRecord>,
-    /// Fields that all frames of a command have in common, as far as a row says them.
+    /// Fields that all frames of a command have in common, as far as a row holds them.
     pub(crate) common: String,
-    /// The report in one line, without its end.
+    /// Report in one line, without a line break.
     pub(crate) line: String,
 }
 
 impl Row {
-    /// The row that a report makes; `None` unless it is of a frame and has a key.
+    /// Makes the row of a report; `None` unless the report is of a frame and has a key.
     pub(crate) fn of(report: &Report) -> Option<Self> {
         let (pose, run) = (report.scene.pose.as_ref()?, report.runs.first()?);
         let program = (&report.version, &report.commit);
@@ -33,7 +33,7 @@ impl Row {
         let occluder = (&run.occluder, &run.shadow_resolution, &run.shadow_points);
         let options = (&run.primary, occluder, &run.sampler, &run.back_faces, &run.integrator_options);
         let light = (&report.scene.environment, &report.scene.alpha);
-        // A sequence of files may name each of them.
+        // A sequence of files may name a file for each frame, so its scene name is not compared.
         let scene = Some(&report.scene.name).filter(|_| pose.file.is_none());
         Some(Self {
             frame: pose.frame?,
@@ -45,10 +45,10 @@ impl Row {
     }
 }
 
-/// The rows of a file; none where there is no file.
+/// Reads the rows of a file; none if there is no file.
 ///
 /// # Errors
-/// The file cannot be read, or a line of it is no report of a frame.
+/// The file cannot be read, or a line of it is not the report of a frame.
 pub(crate) fn read_rows(path: &Path) -> Result<Vec<Row>, AppError> {
     let text = match std::fs::read_to_string(path) {
         Ok(text) => text,
@@ -71,30 +71,30 @@ pub(crate) fn read_rows(path: &Path) -> Result<Vec<Row>, AppError> {
     text.lines().enumerate().map(row).collect()
 }
 
-/// The key in a report of one picture; `None` where there is no such report.
+/// Returns the key in a report of one picture; `None` if there is no such report.
 pub(crate) fn key_of_report(path: &Path) -> Option<String> {
     let report: Report = serde_json::from_slice(&std::fs::read(path).ok()?).ok()?;
     report.runs.first()?.key.clone()
 }
 
-/// A file that is written anew, whole, with each row.
+/// File that is written anew, as a whole, with each row.
 pub(crate) struct Rows {
     place: Destination,
     rows: BTreeMap<u32, Row>,
-    /// True if the file holds something else.
+    /// True if the file does not hold the present rows.
     is_changed: bool,
 }
 
 impl Rows {
-    /// True for the name of such a file: it ends in `.jsonl`.
+    /// True for the name of such a file, which ends in `.jsonl`.
     pub(crate) fn are_in(path: &Path) -> bool {
         path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("jsonl"))
     }
 
-    /// A file for the rows of an animation. `resume` keeps those that are there.
+    /// Opens a file for the rows of an animation. `resume` keeps the existing rows.
     ///
     /// # Errors
-    /// The place takes no file; what is there cannot be read.
+    /// The place accepts no file, or the existing file cannot be read.
     pub(crate) fn open(path: &Path, resume: bool) -> Result<Self, AppError> {
         let place = Destination::check(path)?;
         let there = if resume { read_rows(path)? } else { Vec::new() };
@@ -102,7 +102,7 @@ impl Rows {
         Ok(Self { place, rows, is_changed: false })
     }
 
-    /// Their destination.
+    /// Returns the destination of the rows.
     pub(crate) fn place(&self) -> &Destination {
         &self.place
     }
@@ -112,7 +112,7 @@ impl Rows {
         self.rows.get(&frame).is_some_and(|row| row.key == key)
     }
 
-    /// The row of a frame that is there already is one of the frames that this command makes.
+    /// Marks the existing row of a frame as one of the frames that this command makes.
     pub(crate) fn keep(&mut self, frame: u32, frames: Option<&FramesRecord>) {
         let Some(row) = self.rows.get_mut(&frame).filter(|row| row.frames.as_ref() != frames) else { return };
         let Ok(mut report) = serde_json::from_str::<Report>(&row.line) else { return };
@@ -123,15 +123,15 @@ impl Rows {
         self.is_changed = true;
     }
 
-    /// True if [`Rows::write`] would write something else than the file holds.
+    /// True if [`Rows::write`] would change the file.
     pub(crate) fn is_changed(&self) -> bool {
         self.is_changed
     }
 
-    /// Puts a row in the place of the one of its frame, if there is one, and writes the file.
+    /// Puts a row in the place of the row of its frame, if there is one, and writes the file.
     ///
     /// # Errors
-    /// As [`Destination::put`].
+    /// As for [`Destination::put`].
     pub(crate) fn put(&mut self, row: Row, interrupt: &Interrupt) -> Result<(), AppError> {
         self.rows.insert(row.frame, row);
         self.write(interrupt)
@@ -140,7 +140,7 @@ impl Rows {
     /// Writes the file.
     ///
     /// # Errors
-    /// As [`Destination::put`].
+    /// As for [`Destination::put`].
     pub(crate) fn write(&mut self, interrupt: &Interrupt) -> Result<(), AppError> {
         self.place.put(lines(self.rows.values()).as_bytes(), interrupt)?;
         self.is_changed = false;
@@ -148,7 +148,7 @@ impl Rows {
     }
 }
 
-/// The text of a file with these rows.
+/// Returns the text of a file with these rows.
 pub(crate) fn lines<'a>(rows: impl IntoIterator<Item = &'a Row>) -> String {
     json_escaped(&rows.into_iter().flat_map(|row| [row.line.as_str(), "\n"]).collect::<String>())
 }

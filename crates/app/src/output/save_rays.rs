@@ -1,4 +1,4 @@
-//! Writes what was traced and answered into folders.
+//! Writer of traced rays and their answers into folders.
 
 use super::destination::Destination;
 use crate::error::AppError;
@@ -6,7 +6,7 @@ use crate::interrupt::Interrupt;
 use rasray_experiment::{NamedBytes, SavedRays};
 use std::path::{Path, PathBuf};
 
-/// Folders that were named, and seen to take files.
+/// Folders that were named, and accept files.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct SaveTargets {
     rays: Option<PathBuf>,
@@ -17,7 +17,7 @@ impl SaveTargets {
     /// Checks the folders.
     ///
     /// # Errors
-    /// A folder that does not exist or takes no files.
+    /// A folder does not exist or accepts no files.
     pub(crate) fn check(rays: Option<&Path>, hits: Option<&Path>) -> Result<Self, AppError> {
         for folder in [rays, hits].into_iter().flatten() {
             Destination::check(&folder.join("triangles.npy"))?;
@@ -31,7 +31,7 @@ impl SaveTargets {
     }
 }
 
-/// Writes rays, triangles and hits. Files that are there already are replaced.
+/// Writes rays, triangles and hits. Existing files are replaced.
 ///
 /// # Errors
 /// A file cannot be written.

@@ -1,4 +1,4 @@
-//! Stamps of images: a key, by which a later run knows what they show, tone and denoiser.
+//! Stamps of images: a key, by which a later run recognises the image, tone and denoiser.
 
 use super::exr_header;
 use super::format::ImageFormat;
@@ -9,17 +9,18 @@ use rasray_scene_source::KeyHash;
 use std::io::{Cursor, ErrorKind};
 use std::path::Path;
 
-/// The key of an image: an attribute of an EXR, a tEXt chunk of a PNG. It belongs to the whole file, with the
-/// way in which it shows the picture.
+/// Name of the key of an image: an attribute of an EXR, a tEXt chunk of a PNG. The key belongs to the whole
+/// file, including the form in which it shows the picture.
 pub const KEY: &str = "rasrayKey";
 
-/// Tone of a PNG, a tEXt chunk: the curve, and the stops of exposure before it.
+/// Name of the tone of a PNG, a tEXt chunk: the curve, and the stops of exposure before it.
 pub const TONE: &str = "rasrayTone";
 
-/// Denoiser of an image, such as `Open Image Denoise 2.5.1`: an attribute of an EXR, a tEXt chunk of a PNG.
+/// Name of the denoiser of an image, such as `Open Image Denoise 2.5.1`: an attribute of an EXR, a tEXt chunk
+/// of a PNG.
 pub const DENOISED: &str = "rasrayDenoised";
 
-/// Tone in words: `agx, exposure 1`.
+/// Writes the tone in words: `agx, exposure 1`.
 pub fn tone_text(tone: Tone) -> String {
     match tone.curve {
         ToneCurve::Exposure => format!("exposure {}", tone.exposure),
@@ -27,14 +28,14 @@ pub fn tone_text(tone: Tone) -> String {
     }
 }
 
-/// The key of a file that shows the picture with the key `picture`: as a PNG in a certain tone, as an EXR, or
-/// as an EXR of a share of the samples.
+/// Computes the key of a file that shows the picture with the key `picture`: as a PNG in a certain tone, as
+/// an EXR, or as an EXR of a share of the samples.
 pub fn image_key(picture: &str, format: ImageFormat, tone: Tone, shard: Option<Shard>) -> String {
     let hash = KeyHash::default().with("picture", picture);
     match (format, shard) {
         (_, Some(shard)) => hash.with("part", shard.to_string()),
         (ImageFormat::Exr, None) => hash.with("exr", ""),
-        // -0 and 0 are the same exposure.
+        // The exposures -0 and 0 are equal.
         (ImageFormat::Png, None) => {
             let exposed = hash.with("png", (tone.exposure + 0.0).to_le_bytes());
             match tone.curve {
@@ -46,26 +47,26 @@ pub fn image_key(picture: &str, format: ImageFormat, tone: Tone, shard: Option<S
     .finish()
 }
 
-/// State of a place where an image with a certain key is wanted.
+/// State of a file that should hold an image with a certain key.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ImageState {
-    /// The wanted image, whole.
+    /// The file is the wanted image, whole.
     Same,
-    /// Nothing.
+    /// There is no file.
     Missing,
-    /// A file with another key, or without one.
+    /// The file has another key, or none.
     Other,
-    /// A file that is cut short or changed.
+    /// The file is cut short or changed.
     Damaged,
-    /// The wanted image, without the report that was asked for with it.
+    /// The file is the wanted image, but the report that was asked for is missing.
     Unreported,
 }
 
 impl ImageState {
-    /// All of them, in their order.
+    /// All states, in their order.
     pub const ALL: [Self; 5] = [Self::Same, Self::Missing, Self::Other, Self::Damaged, Self::Unreported];
 
-    /// Why the image is made, in words; `None` where it is not.
+    /// Returns the reason for which the image is made; `None` if it is not made.
     pub fn reason(self) -> Option<&'static str> {
         match self {
             Self::Same => None,
@@ -77,11 +78,11 @@ impl ImageState {
     }
 }
 
-/// Reads the file at `path` and says whether it is the image with this key. Its pixels are only looked at if
-/// it says so.
+/// Reads the file at `path` and tells whether it is the image with this key. Its pixels are only checked if
+/// the key is equal.
 ///
 /// # Errors
-/// There is a file that cannot be read.
+/// The file exists but cannot be read.
 pub fn standing(path: &Path, format: ImageFormat, key: &str) -> Result<ImageState, AppError> {
     let bytes = match std::fs::read(path) {
         Ok(bytes) => bytes,
@@ -113,22 +114,22 @@ pub fn standing(path: &Path, format: ImageFormat, key: &str) -> Result<ImageStat
     Ok(if whole { ImageState::Same } else { ImageState::Damaged })
 }
 
-/// The key of a PNG, from what precedes its pixels.
+/// Reads the key of a PNG from the chunks before its pixels.
 fn png_key(bytes: &[u8]) -> Result<Option<String>, png::DecodingError> {
     let reader = png::Decoder::new(Cursor::new(bytes)).read_info()?;
     Ok(png_text(reader.info(), KEY).map(str::to_owned))
 }
 
-/// A text of a PNG. A chunk whose checksum is not the one that it states is none.
+/// Returns a text of a PNG. A chunk with a wrong checksum does not count.
 fn png_text<'a>(info: &'a png::Info<'_>, name: &str) -> Option<&'a str> {
     let mut texts = info.uncompressed_latin1_text.iter();
     texts.find(|chunk| chunk.keyword == name).map(|chunk| chunk.text.as_str())
 }
 
-/// End of every PNG: a chunk without content, and its checksum.
+/// Bytes at the end of every PNG: a chunk without content, and its checksum.
 const PNG_END: [u8; 12] = *b"\0\0\0\0IEND\xaeB`\x82";
 
-/// True if all chunks have the checksums that they state and all pixels are there.
+/// True if all chunks have their stated checksums and all pixels exist.
 fn png_is_whole(bytes: &[u8]) -> bool {
     let read = || {
         let mut options = png::DecodeOptions::default();

@@ -1,4 +1,4 @@
-//! The devices, what the one in use offers, and the way of each structure on it.
+//! Text about the devices, the features of the one in use, and the choices of each structure on it.
 
 use super::rows::pair;
 use crate::hints::with_flags;

@@ -1,4 +1,4 @@
-//! Counts of the lists of a structure's cells.
+//! Text of the counts of the lists of a structure's cells.
 
 use rasray_report::{ListRecord, columns, list_rows};
 use serde_json::{Value, json};

@@ -1,4 +1,4 @@
-//! `rasray info`.
+//! Command `rasray info`.
 
 mod device;
 mod lists;
@@ -25,16 +25,17 @@ use lists::{lists_json, lists_text};
 use passes::{passes_json, passes_text};
 use scene::scene_text;
 
-/// Schema of the JSON; fields are only ever added to version 1.
+/// Schema of the JSON; version 1 only ever gains fields.
 const SCHEMA: &str = "rasray-info/1";
 
-/// Images of the views that passes are listed for: where a structure draws the camera's view, as many cells.
+/// Side of the images for which passes are listed, pixels: a structure that draws the camera's view has as
+/// many cells.
 const SIDE: u32 = 512;
 
 /// Shows a scene, the passes or the lists of a structure on it, or without a scene the device.
 ///
 /// # Errors
-/// A scene that cannot be read, no suitable device, or options that no structure asks for.
+/// The scene cannot be read, no device is suitable, or options belong to no structure.
 pub(crate) fn info(given: &InfoArguments, open: &mut OpenBackend<'_>) -> Result<(), AppError> {
     let system = given.system()?;
     if let Some(name) = &given.scene {
@@ -94,7 +95,7 @@ pub(crate) fn info(given: &InfoArguments, open: &mut OpenBackend<'_>) -> Result<
     show(given.json, || device_json(&device, &description), || device_text(&device, &description))
 }
 
-/// Prints the one form or the other.
+/// Prints the JSON or the text.
 fn show(as_json: bool, json: impl Fn() -> Value, text: impl Fn() -> String) -> Result<(), AppError> {
     if !as_json {
         return terminal::print(&text());

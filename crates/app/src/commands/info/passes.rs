@@ -1,4 +1,4 @@
-//! Commands that a structure records for a scene, pass by pass.
+//! Text of the commands that a structure records for a scene, pass by pass.
 
 use rasray_experiment::PassCommands;
 use rasray_report::{columns, grouped};

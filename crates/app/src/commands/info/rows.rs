@@ -1,6 +1,6 @@
 //! Rows of tables.
 
-/// A name and what is said of it.
+/// Makes a row of a name and a value.
 pub(super) fn pair(name: &str, value: impl ToString) -> Vec<String> {
     vec![name.to_owned(), value.to_string()]
 }

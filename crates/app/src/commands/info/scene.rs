@@ -1,5 +1,5 @@
-//! Contents of a scene, how it is seen and lit where nothing is said of it, and what of it an image can show,
-//! as text.
+//! Text about a scene: its contents, its default view and light, and the data that an image of the scene can
+//! show.
 
 use super::rows::pair;
 use rasray_experiment::SceneInfo;
@@ -65,7 +65,7 @@ fn needs_text(info: &SceneInfo) -> String {
     )
 }
 
-/// Position, name, kind and what of the world is in the picture.
+/// Makes the row of a camera: position, name, kind and the framed part of the world.
 fn camera_row(camera: &CameraRecord) -> Vec<String> {
     let seen = match (camera.fov_y_degrees, camera.height_m) {
         (Some(angle), _) => format!("{angle:.1} degrees"),

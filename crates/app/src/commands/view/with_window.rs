@@ -1,4 +1,4 @@
-//! `rasray view` with its window.
+//! Command `rasray view` with its window.
 
 use crate::arguments::values::Switch;
 use crate::arguments::{NeedsName, SceneArguments, ViewArguments, ViewerArguments};
@@ -21,10 +21,10 @@ use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// Opens a window for a scene, until it is closed.
+/// Opens a window for a scene, until the window is closed.
 ///
 /// # Errors
-/// As of a render, and where there is no display.
+/// As for a render; also if there is no display.
 pub(crate) fn view(given: &ViewerArguments, interrupt: &Interrupt) -> Result<(), AppError> {
     check_display()?;
     let opener = Opener {
@@ -55,12 +55,12 @@ pub(crate) fn view(given: &ViewerArguments, interrupt: &Interrupt) -> Result<(),
     }
 }
 
-/// An error in the words of the command.
+/// Describes an error in the words of the command.
 fn failure(error: &AppError) -> Failure {
     Failure { message: error.to_string(), help: error.help().into_owned() }
 }
 
-/// As [`failure`], for an error that a window shows while it goes on.
+/// Describes as [`failure`] an error that a window shows while it goes on.
 fn explain(error: &ViewerError) -> Failure {
     let message = match error {
         ViewerError::Experiment(error) => hints::message(error),
@@ -70,7 +70,7 @@ fn explain(error: &ViewerError) -> Failure {
     Failure { message, help: hints::help_of_viewer(error).into_owned() }
 }
 
-/// Opens scenes as a command line says.
+/// Opener of scenes by the options of a command line.
 struct Opener {
     frame: Frame,
     system: SystemConfig,
@@ -82,13 +82,14 @@ struct Opener {
 }
 
 impl Opener {
-    /// Opener of scenes that the command line did not name: cameras and times are not theirs.
+    /// Makes the opener for scenes that the command line did not name, to which its cameras and times do not
+    /// apply.
     fn for_other_scenes(self) -> Self {
         let reading = SceneArguments { time: None, clip: None, ..self.reading };
         Self { reading, view: ViewArguments::default(), ..self }
     }
 
-    /// Reads a scene, and says what a session of it begins with.
+    /// Reads a scene, and returns the state that its session begins with.
     fn open(&self, scene: &OsStr) -> Result<Opened, AppError> {
         let output = self.output.clone().unwrap_or_else(|| default_output(scene));
         if ImageFormat::of(&output)? != ImageFormat::Png {
@@ -99,7 +100,7 @@ impl Opener {
         let chosen = self.check_view(&mut loaded)?;
         let is_moving = loaded.moves();
         let system = match is_moving {
-            // A moment of play is shown with a sample per pixel.
+            // During play a moment is shown with one sample per pixel.
             true => {
                 let rays = Frame { spp: 1, ..self.frame.clone() }.rays();
                 self.system.clone().rebuilt_for(rays, loaded.triangles)
@@ -145,8 +146,8 @@ impl Opener {
         Ok(Opened { opening, source })
     }
 
-    /// Refuses a camera, a time or a clip that the scene does not have before it is shown, and says what
-    /// there is to remark on what is shown first.
+    /// Refuses a camera, a time or a clip that the scene does not have before the scene is shown, and prints
+    /// the warnings about the first view.
     fn check_view(&self, loaded: &mut LoadedScene) -> Result<ChosenCamera, LoadError> {
         let SceneArguments { time, clip, .. } = &self.reading;
         if time.is_none() && clip.is_none() {
@@ -165,7 +166,7 @@ impl Opener {
         Ok(chosen)
     }
 
-    /// Words of a render for options that the window does not change.
+    /// Returns the words of a render for options that the window does not change.
     fn other_words(&self) -> Vec<String> {
         let mut all = words("--environment", self.reading.environment.clone());
         all.extend(words("--alpha", (self.reading.alpha == Switch::Off).then(|| "off".to_owned())));
@@ -175,7 +176,7 @@ impl Opener {
     }
 }
 
-/// Writes a picture and says how to make it again.
+/// Writes a picture and prints how to make it again.
 fn save(saved: &SavedPicture<'_>, interrupt: &Interrupt) -> Result<(), AppError> {
     let png = output::encode_shown(saved.pixels, saved.size, saved.tone, saved.denoised)?;
     Destination::check(saved.place)?.write(&png, interrupt)?;
@@ -189,15 +190,15 @@ fn save(saved: &SavedPicture<'_>, interrupt: &Interrupt) -> Result<(), AppError>
     Ok(())
 }
 
-/// The name of the scene and a number.
+/// Returns the name of the scene with a number.
 fn default_output(scene: &OsStr) -> PathBuf {
     let name = Path::new(scene).file_stem().unwrap_or_default().to_string_lossy();
-    // Parameters of a built-in scene are no part of a file's name.
+    // Parameters of a built-in scene are left out of the file's name.
     let name = name.split(':').next().filter(|name| !name.is_empty()).unwrap_or("scene");
     PathBuf::from(format!("{name}.####.png"))
 }
 
-/// An option with its value, where it was given.
+/// Returns an option with its value, if it was given.
 fn words(option: &str, value: Option<String>) -> Vec<String> {
     value.into_iter().flat_map(|value| [option.to_owned(), value]).collect()
 }
