@@ -1,10 +1,10 @@
-//! Takes every module of `permutations.txt` whose features are on, and writes the Rust side: one `Shader` per
-//! module, the GLSL itself, and what Rust has from its text, whatever features are on: numbers, records, ids
-//! of specialisation constants.
+//! Build script that provides every module of `permutations.txt` whose features are on, and writes the Rust
+//! side: one `Shader` per module, the GLSL itself, and everything that Rust takes from its text, whatever
+//! features are on: numbers, records, ids of specialisation constants.
 //!
-//! Modules come from the folder `prebuilt` where it is, as in packages (`tools/package` makes it), so that
+//! Modules come from the folder `prebuilt` if it exists, as in packages (`tools/package` makes it), so that
 //! users of a package need no C++ toolchain. Without it they are compiled, with the feature `compile`.
-//! `RASRAY_PREBUILT` names a folder to make such a folder of what was compiled.
+//! `RASRAY_PREBUILT` names a folder to which the compiled modules are written in the form of `prebuilt`.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -30,11 +30,11 @@ mod records;
 use comments::documentation;
 use modules::{Built, Index, file_of, hash, write_prebuilt};
 
-/// Endings of files that hold GLSL.
+/// Extensions of files that hold GLSL.
 const GLSL: [&str; 4] = ["glsl", "comp", "vert", "frag"];
 
-/// Files of which each `#define NAME number` becomes a Rust constant, with the module it lands in:
-/// `constants.glsl` of every folder, and one more.
+/// Returns the files in which each `#define NAME number` becomes a Rust constant, with the module of the
+/// constant: `constants.glsl` of every folder, and one more.
 fn number_files(root: &Path) -> Result<Vec<(String, String)>, String> {
     let mut files: Vec<_> = shader_folders(root)?
         .into_iter()
@@ -49,7 +49,7 @@ fn number_files(root: &Path) -> Result<Vec<(String, String)>, String> {
 
 fn main() {
     if let Err(message) = run() {
-        // Printed on lines of their own: cargo shows a build script's stderr as it is.
+        // The message is printed on lines of its own, since cargo shows a build script's stderr unchanged.
         eprintln!("{message}");
         std::process::exit(1);
     }
@@ -59,13 +59,13 @@ fn run() -> Result<(), String> {
     let root = PathBuf::from(std::env::var("CARGO_MANIFEST_DIR").map_err(|e| e.to_string())?);
     let out = PathBuf::from(std::env::var("OUT_DIR").map_err(|e| e.to_string())?);
     watch(&root)?;
-    // For the build scripts of crates that depend on this one: DEP_RASRAY_SHADERS_GLSL_ROOT.
+    // The build scripts of crates that depend on this one read this as DEP_RASRAY_SHADERS_GLSL_ROOT.
     println!("cargo::metadata=root={}", root.display());
     let files = glsl_files(&root)?;
     let sources = hash_of_sources(&root, &files)?;
     let modules = modules(&root, &out, sources)?;
     if let Some(folder) = std::env::var_os("RASRAY_PREBUILT").map(PathBuf::from) {
-        // Made anew where somebody removed it.
+        // The folder is made anew if somebody removed it.
         println!("cargo::rerun-if-changed={}", folder.join("modules.txt").display());
         write_prebuilt(&folder, &out, sources, &modules)?;
     }
@@ -88,7 +88,7 @@ fn run() -> Result<(), String> {
     write_changed(&out.join("test_records.rs"), records::code_of_records(&of_tests, &numbers)?.as_bytes())
 }
 
-/// The modules whose features are on, in `out`: those of `prebuilt` where it is and has them, else compiled.
+/// Writes the modules whose features are on to `out`: from `prebuilt` if it has them, otherwise compiled.
 fn modules(root: &Path, out: &Path, sources: u64) -> Result<Vec<Built>, String> {
     let prebuilt = root.join("prebuilt");
     let wrong = |what: String| {
@@ -98,7 +98,7 @@ fn modules(root: &Path, out: &Path, sources: u64) -> Result<Vec<Built>, String> 
             prebuilt.display()
         )
     };
-    // Names and source text are in no package.
+    // Packages hold no names and no source text.
     if prebuilt.exists() && !feature_is_on("debug-shaders") {
         let index = Index::read(&prebuilt).map_err(wrong)?;
         let lacks = index.lacks();
@@ -152,7 +152,7 @@ fn code_of_files(files: &[String]) -> String {
     code + "];\n"
 }
 
-/// Names of all files with GLSL, relative to the root and in order.
+/// Returns the names of all files with GLSL, relative to the root and in order.
 fn glsl_files(root: &Path) -> Result<Vec<String>, String> {
     let mut files = Vec::new();
     for folder in shader_folders(root)? {
@@ -168,7 +168,7 @@ fn glsl_files(root: &Path) -> Result<Vec<String>, String> {
     Ok(files)
 }
 
-/// Hash of everything that modules are made of.
+/// Returns a hash of everything that modules are made of.
 fn hash_of_sources(root: &Path, files: &[String]) -> Result<u64, String> {
     let mut all = Vec::new();
     for name in files.iter().map(String::as_str).chain(["permutations.txt"]) {
@@ -178,7 +178,8 @@ fn hash_of_sources(root: &Path, files: &[String]) -> Result<u64, String> {
     Ok(hash(&all))
 }
 
-/// Writes a file unless it is so already: what includes it is then not compiled again.
+/// Writes a file unless it has these contents already, so that crates which include it are not compiled
+/// again.
 fn write_changed(path: &Path, bytes: &[u8]) -> Result<(), String> {
     if std::fs::read(path).is_ok_and(|before| before == bytes) {
         return Ok(());
@@ -194,13 +195,13 @@ fn feature_is_on(feature: &str) -> bool {
     std::env::var_os(format!("CARGO_FEATURE_{}", feature.to_uppercase().replace('-', "_"))).is_some()
 }
 
-/// Rebuilds when a shader, the list, a folder with shaders or the folder of modules changes.
+/// Tells cargo to rebuild when a shader, the list, a folder with shaders or the folder of modules changes.
 fn watch(root: &Path) -> Result<(), String> {
     println!("cargo::rerun-if-changed=build.rs");
     println!("cargo::rerun-if-changed=build");
     println!("cargo::rerun-if-changed=permutations.txt");
     println!("cargo::rerun-if-env-changed=RASRAY_PREBUILT");
-    // A path that is not there would rebuild always.
+    // A path that does not exist would cause a rebuild every time.
     if root.join("prebuilt").exists() {
         println!("cargo::rerun-if-changed=prebuilt");
     }
@@ -210,7 +211,7 @@ fn watch(root: &Path) -> Result<(), String> {
     Ok(())
 }
 
-/// Folders with shaders.
+/// Returns the folders with shaders.
 fn shader_folders(root: &Path) -> Result<Vec<String>, String> {
     let others = ["src", "tests", "build", "compiler", "prebuilt", "target"];
     let mut folders = Vec::new();
@@ -224,7 +225,7 @@ fn shader_folders(root: &Path) -> Result<Vec<String>, String> {
     Ok(folders)
 }
 
-/// Turns `#define NAME number` into constants and hands the comment above on as documentation. Whole numbers
+/// Turns each `#define NAME number` into a constant, with the comment above as documentation. Whole numbers
 /// are added to `numbers`.
 fn constants_of(file: &str, text: &str, numbers: &mut BTreeMap<String, u32>) -> Result<String, String> {
     let mut code = String::new();

@@ -20,16 +20,17 @@ layout(constant_id = 18) const uint ABUFFER_INLINE = 0u;
 layout(constant_id = 19) const uint ABUFFER_PAGE = 4u;
 layout(constant_id = 20) const uint ABUFFER_VIEWS = ABUFFER_VIEWS_CUBE;
 layout(constant_id = 21) const uint ABUFFER_SINGLE_LAYER = 0u;
-// 1 where fragments keep their triangle behind a payload without it.
+// 1 if fragments keep their triangle behind a payload without it.
 layout(constant_id = 22) const uint ABUFFER_IDS = 0u;
-// 1 where each ray places its samples at an offset of its own within their steps.
+// 1 if each ray places its samples at an offset of its own within their steps.
 layout(constant_id = 23) const uint ABUFFER_JITTER = 0u;
 layout(constant_id = 24) const uint ABUFFER_VIEW_SWITCHING = ABUFFER_SWITCH_EXACT;
 // ABUFFER_BOUNDS_*: depth bounds of a cell before its fragments are stored, of storages with buckets.
 layout(constant_id = 25) const uint ABUFFER_BOUNDS_OF = ABUFFER_BOUNDS_GEOMETRY;
 
-// Steps of rays and what they test, ABUFFER_STEP_* and ABUFFER_TEST_*. Each is most of a trace's code, so modules that
-// trace are compiled once for each (permutations.txt); elsewhere the options decide.
+// Steps of rays and the candidates that they test, ABUFFER_STEP_* and ABUFFER_TEST_*. Each makes up most of a
+// trace's code, so that modules that trace are compiled once for each (permutations.txt); in other modules
+// the options decide.
 #ifdef ABUFFER_STEPS
 const uint ABUFFER_STEP = ABUFFER_STEPS;
 #else
@@ -43,17 +44,18 @@ const uint ABUFFER_TEST = ABUFFER_COVERAGE == ABUFFER_COVERAGE_CONSERVATIVE ? AB
     : (ABUFFER_ACCEPT == ABUFFER_ACCEPT_PLANE ? ABUFFER_TEST_PLANES : ABUFFER_TEST_DEPTHS);
 #endif
 
-// True where cells keep every triangle that reaches into them: triangles are tested, not planes, and no hit is lost.
+// True if cells keep every triangle that reaches into them: triangles are tested, not planes, and no hit is
+// lost.
 const bool ABUFFER_CONSERVATIVE = ABUFFER_TEST == ABUFFER_TEST_TRIANGLES;
 
-// True where cells keep triangles outside of their centres.
+// True if cells keep triangles outside their centres.
 const bool ABUFFER_EDGE_ON = ABUFFER_TEST == ABUFFER_TEST_PLANES && ABUFFER_COVERAGE == ABUFFER_COVERAGE_EDGE_ON;
 const bool ABUFFER_HAS_CONSERVATIVE = ABUFFER_CONSERVATIVE || ABUFFER_EDGE_ON;
 
-// True where rays visit the cells that they cross; else they are sampled.
+// True if rays visit the cells that they cross; otherwise they are sampled.
 const bool ABUFFER_FOLLOWS_CELLS = ABUFFER_STEP != ABUFFER_STEP_SAMPLES;
 
-// True where a ray passes from view to view as published.
+// True if a ray passes from view to view as published.
 const bool ABUFFER_SNAPS = ABUFFER_VIEW_SWITCHING == ABUFFER_SWITCH_SNAP;
 
 // Views that are drawn.

@@ -1,7 +1,7 @@
-//! Comments of GLSL as documentation of Rust.
+//! Documentation of Rust from comments of GLSL.
 
-/// A comment's text for rustdoc: names in code marks, and nothing that Markdown takes for markup. What is in
-/// code marks already stays as it is.
+/// Converts a comment for rustdoc: names get code marks, and characters that Markdown takes for markup are
+/// escaped. Text in code marks stays unchanged.
 pub(crate) fn documentation(comment: &str) -> String {
     let mut text = String::new();
     for (place, part) in comment.split('`').enumerate() {
@@ -14,7 +14,8 @@ pub(crate) fn documentation(comment: &str) -> String {
     text
 }
 
-/// [`documentation`] as a sentence: with a capital, unless it begins with a name, and a full stop.
+/// Converts a comment as [`documentation`] into a sentence: with a capital, unless it begins with a name, and
+/// a full stop.
 pub(crate) fn sentence(comment: &str) -> String {
     let comment = comment.trim();
     let mut characters = comment.chars();
@@ -29,7 +30,7 @@ fn is_of_word(character: char) -> bool {
     character.is_ascii_alphanumeric() || character == '_'
 }
 
-/// True if a word is one of the code's rather than of the language's.
+/// True if a word is a name of the code and not a word of the language.
 fn is_name(word: &str) -> bool {
     word.contains('_') && word.chars().any(char::is_alphabetic)
 }
@@ -52,7 +53,7 @@ fn marked(text: &str) -> String {
             result += word;
             continue;
         }
-        // `STATUS_*`: all names that begin so.
+        // `STATUS_*` stands for all names that begin with `STATUS_`.
         let star = if word.ends_with('_') && rest.starts_with('*') { "*" } else { "" };
         rest = &rest[star.len()..];
         result = result + "`" + word + star + "`";

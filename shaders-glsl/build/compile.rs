@@ -1,8 +1,8 @@
-//! Compiles the modules of `permutations.txt`.
+//! Compiler of the modules of `permutations.txt`.
 //!
-//! Names and source text stay in the modules with the feature `debug-shaders`, and are left out without it:
-//! they are more than half of all bytes. `RASRAY_SHADER_CACHE` names a folder that builds of several profiles
-//! share, so that a module is compiled once for all of them.
+//! With the feature `debug-shaders` names and source text stay in the modules; without it they are left out,
+//! since they are more than half of all bytes. `RASRAY_SHADER_CACHE` names a folder that builds of several
+//! profiles share, so that a module is compiled once for all of them.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -31,8 +31,8 @@ pub(crate) fn modules(root: &Path, out: &Path) -> Result<Vec<Built>, String> {
     Ok(built.collect())
 }
 
-/// Compiles modules on as many threads as cargo grants. Says what is wrong with the first
-/// of the list that fails.
+/// Compiles modules on as many threads as cargo grants. The error describes the first module of the list that
+/// fails.
 fn compile_all(root: &Path, out: &Path, permutations: &[Permutation]) -> Result<(), String> {
     let threads = std::env::var("NUM_JOBS").ok().and_then(|jobs| jobs.parse().ok()).unwrap_or(1);
     let next = AtomicUsize::new(0);
@@ -51,13 +51,13 @@ fn compile_all(root: &Path, out: &Path, permutations: &[Permutation]) -> Result<
     results.into_inner().unwrap_or_else(PoisonError::into_inner).into_values().collect()
 }
 
-/// The next module that no thread has taken yet, with its place in the list.
+/// Takes the next module that no thread has taken yet, with its place in the list.
 fn take<'a>(permutations: &'a [Permutation], next: &AtomicUsize) -> Option<(usize, &'a Permutation)> {
     let place = next.fetch_add(1, Ordering::Relaxed);
     permutations.get(place).map(|permutation| (place, permutation))
 }
 
-/// Writes a module, packed, compiled unless the cache has it.
+/// Writes a module in packed form, compiled unless the cache has it.
 fn compile_one(root: &Path, out: &Path, permutation: &Permutation) -> Result<(), String> {
     let module = Module { entry: &permutation.entry, defines: &permutation.defines };
     let text = preprocess(&[root], &module).map_err(|e| e.to_string())?;
@@ -77,7 +77,8 @@ fn compile_one(root: &Path, out: &Path, permutation: &Permutation) -> Result<(),
     write_changed(&out.join(crate::modules::file_of(&permutation.name)), &packed)
 }
 
-/// The words that are kept for a text, includes and macros expanded; none where another text is, or nothing.
+/// Reads the words that are kept for a text with includes and macros expanded; `None` if nothing or another
+/// text is kept.
 fn read_kept(kept: &Path, text: &str) -> Option<Vec<u32>> {
     if std::fs::read_to_string(kept.with_extension("txt")).ok()? != text {
         return None;
@@ -87,8 +88,8 @@ fn read_kept(kept: &Path, text: &str) -> Option<Vec<u32>> {
     rest.is_empty().then(|| words.iter().map(|word| u32::from_le_bytes(*word)).collect())
 }
 
-/// Keeps words for a text. Files appear whole, as other builds may look for them; the text last, as it
-/// vouches for both.
+/// Keeps words for a text. Each file appears as a whole, since other builds may look for it; the text comes
+/// last, because it vouches for both files.
 fn keep(kept: &Path, text: &str, words: &[u32]) -> Result<(), String> {
     let put = |extension: &str, bytes: &[u8]| {
         let path = kept.with_extension(extension);

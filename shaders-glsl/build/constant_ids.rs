@@ -1,13 +1,13 @@
-//! Ids of specialisation constants as constants of Rust.
+//! Constants of Rust for the ids of specialisation constants.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
-/// Ids from here on are those of hosts.
+/// First id that belongs to hosts.
 const END: u32 = 200;
 
-/// Code of the ids of all files, given as name and text, with a module per folder. A module may include any
-/// two folders, so that no two constants have one id.
+/// Generates the code of the ids of all files, given as name and text, with a module per folder. No two
+/// constants may have one id, since a module may include any two folders.
 pub(crate) fn code_of_constant_ids(files: &[(String, String)]) -> Result<String, String> {
     let mut folders: BTreeMap<&str, String> = BTreeMap::new();
     let mut known: BTreeMap<u32, (&str, &str)> = BTreeMap::new();
@@ -39,7 +39,7 @@ pub(crate) fn code_of_constant_ids(files: &[(String, String)]) -> Result<String,
     Ok(code)
 }
 
-/// Number and name in the rest of a line, such as ` = 40) const uint NAME = 1u;`.
+/// Reads id and name from the rest of a line, such as ` = 40) const uint NAME = 1u;`.
 fn id_and_name(rest: &str) -> Option<(u32, &str)> {
     let (id, rest) = rest.trim_start().strip_prefix('=')?.split_once(')')?;
     let mut words = rest.split_whitespace();

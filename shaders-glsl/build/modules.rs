@@ -1,6 +1,6 @@
-//! Compiled modules in a folder: `prebuilt`, as packages have it.
+//! Folder of compiled modules: `prebuilt`, as in packages.
 //!
-//! `modules.txt` next to the modules says of which GLSL and with which features they were made, and lists
+//! `modules.txt` next to the modules tells from which GLSL and with which features they were made, and lists
 //! each with a hash of its bytes.
 
 use std::collections::BTreeSet;
@@ -9,29 +9,29 @@ use std::path::Path;
 
 use crate::{feature_is_on, packed, read, write_changed};
 
-/// A module that was compiled.
+/// Compiled module.
 pub(crate) struct Built {
-    /// Its name in the permutation list.
+    /// Name of the module in the permutation list.
     pub(crate) name: String,
     /// Entry file relative to the root.
     pub(crate) entry: String,
-    /// Features that it is there with.
+    /// Features that the module needs.
     pub(crate) features: Vec<String>,
 }
 
-/// The file that holds a module, packed.
+/// Returns the name of the file that holds a module, packed.
 pub(crate) fn file_of(name: &str) -> String {
     format!("{}.packed", name.replace('/', "."))
 }
 
-/// FNV-1a: tells files that differ by mistake apart, not by intent.
+/// Computes the FNV-1a hash, which detects mistakes, but not intentional changes.
 pub(crate) fn hash(bytes: &[u8]) -> u64 {
     bytes
         .iter()
         .fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(*byte)).wrapping_mul(0x100_0000_01b3))
 }
 
-/// Features that are on and decide which modules there are.
+/// Returns the features that are on and decide which modules exist.
 fn features() -> BTreeSet<String> {
     let on = std::env::vars_os().filter_map(|(name, _)| name.into_string().ok());
     let on =
@@ -39,7 +39,7 @@ fn features() -> BTreeSet<String> {
     on.filter(|feature| !["default", "compile", "debug-shaders"].contains(&feature.as_str())).collect()
 }
 
-/// Makes a folder of the modules in `out`.
+/// Writes a folder of the modules in `out`.
 pub(crate) fn write_prebuilt(
     folder: &Path,
     out: &Path,
@@ -62,7 +62,7 @@ pub(crate) fn write_prebuilt(
 pub(crate) struct Index {
     sources: u64,
     features: BTreeSet<String>,
-    /// With the hashes of their files.
+    /// Modules with the hashes of their files.
     modules: Vec<(Built, u64)>,
 }
 
@@ -91,15 +91,15 @@ impl Index {
         Ok(index)
     }
 
-    /// Features that are on and that no module was made with.
+    /// Returns the features that are on, but with which no module was made.
     pub(crate) fn lacks(&self) -> Vec<String> {
         features().difference(&self.features).cloned().collect()
     }
 
-    /// Copies those modules to `out` whose features are on.
+    /// Copies the modules whose features are on to `out`.
     ///
     /// # Errors
-    /// They were made of other sources than those, or one is not what it was.
+    /// The modules were made of other sources, or a file differs from its hash.
     pub(crate) fn take(self, folder: &Path, out: &Path, sources: u64) -> Result<Vec<Built>, String> {
         if self.sources != sources {
             return Err("they were made from other GLSL than that next to them".to_owned());

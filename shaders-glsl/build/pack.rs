@@ -1,13 +1,13 @@
-//! Packs modules; `src/packed.rs` says how, and unpacks them.
+//! Packer of modules, in the format that `src/packed.rs` describes and unpacks.
 
 use crate::packed::{HEADER, Ids};
 
-/// Ids are kept as distances up to this.
+/// Largest distance at which an id is kept as a distance.
 const NEAR: u32 = 64;
-/// Effort of compression, 1 to 10: more takes longer and gains under one percent.
+/// Effort of compression, 1 to 10: a greater one takes longer and gains less than one percent.
 const EFFORT: u8 = 6;
 
-/// A module in few bytes; none where it is no SPIR-V.
+/// Packs a module; `None` if it is not SPIR-V.
 pub(crate) fn pack(words: &[u32]) -> Option<Vec<u8>> {
     let (header, mut rest) = words.split_at_checked(HEADER)?;
     let (mut heads, mut operands, mut ids) = (Vec::new(), Vec::new(), Ids::default());
@@ -32,7 +32,7 @@ pub(crate) fn pack(words: &[u32]) -> Option<Vec<u8>> {
     Some(miniz_oxide::deflate::compress_to_vec(&packed, EFFORT))
 }
 
-/// Seven bits a byte, the lowest first; the highest bit says that more follow.
+/// Writes a number with seven bits per byte, the lowest first; the highest bit tells that more bytes follow.
 fn put(bytes: &mut Vec<u8>, mut number: u64) {
     while number > 0x7f {
         bytes.push(number as u8 | 0x80);

@@ -1,9 +1,9 @@
-//! Structs and push constants of GLSL as structs of Rust.
+//! Records: structs of Rust for structs and push constants of GLSL.
 //!
-//! A record is a block of push constants, whose comment says its size ("12 bytes."), or a struct whose
-//! comment says that the host has it, too, and its size ("Shared, 336 bytes."). Everything is read from the
-//! text of the GLSL, and no compiled module is: modules are what tests hold the result against. Offsets
-//! follow scalar block layout, in which a member has the alignment of its scalars; those are words of 4
+//! A record is a block of push constants, whose comment gives its size ("12 bytes."), or a struct whose
+//! comment marks it as shared with the host and gives its size ("Shared, 336 bytes."). Everything is read
+//! from the text of the GLSL, and nothing from compiled modules, with which tests compare the result. Offsets
+//! follow scalar block layout, in which a member has the alignment of its scalars; these are words of 4
 //! bytes.
 
 use std::collections::BTreeMap;
@@ -11,30 +11,30 @@ use std::fmt::Write as _;
 
 use crate::comments::{documentation, sentence};
 
-/// Records of which zeros are a wrong value rather than an empty one. They have no `Default`.
+/// Records for which zeros are a wrong value rather than an empty one. They have no `Default`.
 pub(crate) const ZEROS_MISLEAD: [&str; 6] =
     ["Ray", "Hit", "TraceState", "BvhNode", "PathWaiting", "WhittedRay"];
 
-/// Bytes of a scalar.
+/// Size of a scalar, bytes.
 const WORD: usize = 4;
 
-/// Word that the comment of a struct has before its size where the host has the struct, too.
+/// Word before the size in the comment of a struct that the host has, too.
 const SHARED: &str = "Shared,";
 
 /// Beginning of a block of push constants.
 const PUSH_CONSTANTS: &str = "layout(push_constant, scalar) uniform ";
 
-/// Reference of a shader to a structure: the device address of its header, whatever the structure.
+/// Type of a shader's reference to a structure: the device address of its header, for any structure.
 const STRUCTURE_REF: &str = "StructureRef";
 
-/// A struct or a block of push constants as GLSL declares it.
+/// Struct or block of push constants as GLSL declares it.
 #[derive(Debug)]
 struct Declared {
     name: String,
     file: String,
-    /// Lines of the comment above.
+    /// Lines of the comment above the declaration.
     comment: Vec<String>,
-    /// Bytes, as that says.
+    /// Size that the comment gives, bytes.
     bytes: usize,
     members: Vec<Member>,
 }
@@ -43,7 +43,7 @@ struct Declared {
 struct Member {
     name: String,
     kind: String,
-    /// Lengths of arrays, the outermost first: numbers or their names.
+    /// Lengths of arrays, the outermost first: numbers or names of numbers.
     lengths: Vec<String>,
     comment: String,
 }
@@ -53,12 +53,12 @@ struct Member {
 struct Type {
     rust: String,
     bytes: usize,
-    /// True if equality of it is an equivalence.
+    /// True if equality of the type is an equivalence relation.
     has_eq: bool,
 }
 
-/// Code of all records of files, given as name and text. `numbers` are what lengths of arrays may name. A
-/// record may hold others of the same files.
+/// Generates the code of all records of files, given as name and text. `numbers` are the names that lengths
+/// of arrays may use. A record may contain others of the same files.
 pub(crate) fn code_of_records(
     files: &[&(String, String)],
     numbers: &BTreeMap<String, u32>,
@@ -84,7 +84,7 @@ pub(crate) fn code_of_records(
     Ok(code)
 }
 
-/// The blocks of push constants of a file, and the structs whose comments say that they are shared.
+/// Finds the blocks of push constants of a file, and the structs whose comments mark them as shared.
 fn records_of(file: &str, text: &str) -> Result<Vec<Declared>, String> {
     let mut found = Vec::new();
     let mut comment: Vec<String> = Vec::new();
@@ -136,13 +136,13 @@ fn records_of(file: &str, text: &str) -> Result<Vec<Declared>, String> {
     Ok(found)
 }
 
-/// The number before the word "bytes." of a comment.
+/// Returns the number before the word "bytes." in a comment.
 fn bytes_in(comment: &[String]) -> Option<usize> {
     let words: Vec<_> = comment.iter().flat_map(|line| line.split_whitespace()).collect();
     words.windows(2).find_map(|pair| (pair[1] == "bytes.").then(|| pair[0].parse().ok())?)
 }
 
-/// Takes the word out of a comment that says `Shared, 8 bytes.`; false where it does not.
+/// Removes the word from a comment that contains `Shared, 8 bytes.`; false for any other comment.
 fn take_shared(comment: &mut [String], bytes: usize) -> bool {
     let size = format!("{bytes} bytes.");
     let marked = format!("{SHARED} {size}");
@@ -153,7 +153,7 @@ fn take_shared(comment: &mut [String], bytes: usize) -> bool {
     })
 }
 
-/// `uint groups[3];`.
+/// Reads a member such as `uint groups[3];`.
 fn member_of(declaration: &str, comment: &str) -> Option<Member> {
     let (kind, rest) = declaration.trim().strip_suffix(';')?.split_once(char::is_whitespace)?;
     let mut parts = rest.trim().split('[');
@@ -170,7 +170,7 @@ fn member_of(declaration: &str, comment: &str) -> Option<Member> {
     })
 }
 
-/// The type of a member in Rust; none where GLSL of records has no such type.
+/// Returns the type of a member in Rust; `None` for a type that records cannot have.
 fn type_of(
     member: &Member,
     declared: &BTreeMap<String, Declared>,
@@ -189,7 +189,7 @@ fn type_of(
         }
         None => plain(&member.kind)?,
     };
-    // The innermost array is the last that is written.
+    // The innermost array is written last.
     for length in member.lengths.iter().rev() {
         let length = numbers.get(length).copied().or_else(|| length.trim_end_matches('u').parse().ok())?;
         found.rust = format!("[{}; {length}]", found.rust);
@@ -198,7 +198,7 @@ fn type_of(
     Some(found)
 }
 
-/// A scalar, a vector or a matrix, whose columns are written one after the other.
+/// Returns the type of a scalar, a vector or a matrix, whose columns are stored one after another.
 fn plain(kind: &str) -> Option<Type> {
     let scalar = |rust: &str| Type { rust: rust.to_owned(), bytes: WORD, has_eq: rust != "f32" };
     let array = |of: Type, count: &str| {
@@ -221,7 +221,7 @@ fn plain(kind: &str) -> Option<Type> {
     }
 }
 
-/// The struct, its layout as data, and that it is laid out as GLSL has it.
+/// Generates the struct, its layout as data, and a check that it has the layout of GLSL.
 fn code_of(
     record: &Declared,
     declared: &BTreeMap<String, Declared>,

@@ -6,10 +6,10 @@
 #include "contract/types.glsl"
 #include "bvh/constants.glsl"
 
-// Constant ids 80 and 85 belong to hierarchies. Children of a node: 2 or 4.
+// Number of children of a node: 2 or 4. Constant ids 80 and 85 belong to hierarchies.
 layout(constant_id = 80) const uint BVH_CHILDREN = 2u;
 
-// Constant id 85: maximum triangles of a leaf that clusters become; 1 where each is a leaf of its own.
+// Maximum number of triangles of a leaf that clusters become; with 1 each triangle is a leaf of its own.
 layout(constant_id = 85) const uint BVH_CLUSTER_LEAF = 1u;
 
 // State and sizes of one tree. Shared, 96 bytes.
@@ -33,7 +33,8 @@ struct BvhHeader {
     uint pair_capacity;     // nodes of two children that the pool holds: the tree's, or those that nodes of four are made of
 };
 
-// An inner node of a tree with two children per node: the boxes of both, so that one read decides about both. Shared, 64 bytes.
+// Inner node of a tree with two children per node: the boxes of both, so that one read decides about both.
+// Shared, 64 bytes.
 // A child reference is a node's number, or BVH_LEAF with a range of records.
 // A link refers to one child of one node: twice the node's number, plus 1 for the second child.
 struct BvhNode {
@@ -51,7 +52,8 @@ struct BvhNode {
     uint other_end;
 };
 
-// An inner node of a tree with four children per node, side by side, so that they are tested together. Shared, 128 bytes.
+// Inner node of a tree with four children per node, whose boxes lie side by side, so that they are tested
+// together. Shared, 128 bytes.
 // A link refers to one child of one node: four times the node's number, plus that of the child.
 struct BvhNodeOfFour {
     vec4 lower_x;           // lower corners of the children, metres relative to the frame origin
@@ -69,7 +71,7 @@ struct BvhNodeOfFour {
     uint spare_2;           // zero
 };
 
-// A triangle in the order of the leaves. Shared, 40 bytes.
+// Triangle in the order of the leaves. Shared, 40 bytes.
 struct BvhRecord {
     vec3 a;                 // first corner, metres relative to the frame origin
     vec3 b;                 // second corner

@@ -1,8 +1,8 @@
-//! Links the static archives that Debian 12's libshaderc leaves undefined.
+//! Build script that links the static archives which Debian 12's libshaderc leaves undefined.
 //!
-//! Debian 12 ships `libshaderc_combined.a` without glslang and SPIRV-Tools inside it. Where exactly
-//! that layout is found, the missing archives are named here; every other system (newer
-//! distributions, the Vulkan SDK) keeps the plain path of `shaderc-sys`.
+//! Debian 12 ships `libshaderc_combined.a` without glslang and SPIRV-Tools inside it. If exactly that layout
+//! is found, this script names the missing archives; every other system (newer distributions, the Vulkan SDK)
+//! keeps the plain path of `shaderc-sys`.
 
 use std::path::Path;
 

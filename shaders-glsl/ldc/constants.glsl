@@ -2,7 +2,7 @@
 #ifndef LDC_CONSTANTS_GLSL
 #define LDC_CONSTANTS_GLSL
 
-// When a fragment counts as hit.
+// Condition under which a fragment counts as hit.
 #define LDC_ACCEPT_TOLERANCE 0u
 #define LDC_ACCEPT_SLOPE 1u
 #define LDC_ACCEPT_PLANE 2u
@@ -13,8 +13,8 @@
 #define LDC_COVERAGE_EXACT 1u
 #define LDC_COVERAGE_CONSERVATIVE 2u
 
-// Depths that a block stores: the smallest and the largest in it, or in addition the slices of the cube's depth that it
-// occupies.
+// Depths that a block stores: only the smallest and the largest in it, or also the slices of the cube's depth
+// that it occupies.
 #define LDC_OCCUPANCY_BOUNDS 0u
 #define LDC_OCCUPANCY_SLICES 1u
 
@@ -22,14 +22,14 @@
 #define LDC_PAYLOAD_INDEX 0u
 #define LDC_PAYLOAD_ATTRIBUTES 1u
 
-// Way of making layers: all in one pass and then sorted, or one per pass by peeling.
+// Method of making layers: all in one pass and then sorted, or one per pass by peeling.
 #define LDC_BUILD_SINGLE 0u
 #define LDC_BUILD_PEEL 1u
 
-// Slices of a cube's depth: the bits of two words.
+// Number of slices of a cube's depth: the bits of two words.
 #define LDC_SLICES 64u
 
-// Blocks along a side of a block of the second level.
+// Number of blocks along a side of a block of the second level.
 #define LDC_LEVEL_BLOCKS 8u
 
 // Reach of a fragment's plane beyond its triangle, in widths of a cell. A triangle has a small slope in the view

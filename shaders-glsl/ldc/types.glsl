@@ -19,17 +19,19 @@ layout(constant_id = 55) const uint LDC_OCCUPANCY = LDC_OCCUPANCY_SLICES;
 layout(constant_id = 56) const uint LDC_LEVELS = 2u;
 layout(constant_id = 57) const uint LDC_BUILD = LDC_BUILD_SINGLE;
 layout(constant_id = 58) const uint LDC_PAYLOAD = LDC_PAYLOAD_INDEX;
-// 1 where fragments keep their triangle behind a payload without it.
+// 1 if fragments keep their triangle behind a payload without it.
 layout(constant_id = 59) const uint LDC_IDS = 0u;
-// Planes know which triangle a ray leaves and where it is hit, so only other acceptances ask.
+// ENDS_*: treatment of fragments at the ends of a ray. Acceptance of planes does not ask, because planes know
+// which triangle a ray leaves and where it is hit.
 layout(constant_id = 60) const uint LDC_ENDS = ENDS_TOUCHING;
-// Draws of the scene in a pass: 1 for all views, or 3, one for each.
+// Number of draws of the scene in a pass: 1 for all views, or 3, one for each.
 layout(constant_id = 61) const uint LDC_PASSES = 1u;
 layout(constant_id = 62) const uint LDC_BLOCK_ROWS = 8u;
-// 1 where the cube is in a space of its own (ads/rigid.glsl).
+// 1 if the cube is in a space of its own (ads/rigid.glsl).
 layout(constant_id = 63) const uint LDC_RIGID = 0u;
 
-// Extra reach of cells for triangles then, in cells: rounding may move them as far where they are posed.
+// Extra reach of cells for triangles with LDC_RIGID, in cells: rounding may move triangles as far where they
+// are posed.
 #define LDC_REACH_RIGID (LDC_ACCEPT == LDC_ACCEPT_TRIANGLE ? LDC_RIGID_REACH : LDC_RIGID_REACH_FRAGMENTS)
 #define LDC_REACH_MORE (LDC_RIGID == 0u ? 0.0 : LDC_REACH_RIGID)
 #define AXIS_REACH_MORE LDC_REACH_MORE

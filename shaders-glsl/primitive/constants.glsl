@@ -11,7 +11,8 @@
 #define PRIMITIVE_COVERAGE_CONSERVATIVE 1u
 #define PRIMITIVE_COVERAGE_EXTENSION 2u
 
-// When a triangle that the ray intersects is a hit: by its t alone, or only where it lies in the tile that listed it.
+// Condition under which a triangle that the ray intersects is a hit: by its t alone, or only inside the tile
+// that listed it.
 #define PRIMITIVE_ACCEPT_T 0u
 #define PRIMITIVE_ACCEPT_TILE 1u
 
@@ -19,7 +20,7 @@
 #define PRIMITIVE_STOP_BEST 0u
 #define PRIMITIVE_STOP_BUCKET 1u
 
-// The depths of a triangle in a tile: of all of it, or of its plane at the corners of the tile.
+// Depths of a triangle in a tile: those of the whole triangle, or of its plane at the corners of the tile.
 #define PRIMITIVE_DEPTHS_CLIPPED 0u
 #define PRIMITIVE_DEPTHS_CORNERS 1u
 
@@ -27,20 +28,21 @@
 #define PRIMITIVE_MARCH_EXACT 0u
 #define PRIMITIVE_MARCH_JUMP 1u
 
-// Blocks of tiles that a ray compares with first; off: there are none.
+// Blocks of tiles that a ray compares with first; off if there are none.
 #define PRIMITIVE_PYRAMID_OFF 0u
 #define PRIMITIVE_PYRAMID_FINEST 1u
 #define PRIMITIVE_PYRAMID_COARSEST 2u
 
-// Words per triangle for large triangles: one per face.
+// Number of words per triangle for large triangles: one per face.
 #define PRIMITIVE_LARGE_LIMIT 6u
 
-// Point at which the faces touch: at the eye, at the eye within the geometry, or within the geometry wherever the eye is.
+// Centre at which the faces touch: at the eye, at the eye within the geometry, or within the geometry
+// wherever the eye is.
 #define PRIMITIVE_CENTRE_EYE 0u
 #define PRIMITIVE_CENTRE_SCENE 1u
 #define PRIMITIVE_CENTRE_FIXED 2u
 
-// Views drawn: the six faces of a cube, or the camera's.
+// Views that are drawn: the six faces of a cube, or the camera's view.
 #define PRIMITIVE_VIEWS_CUBE 0u
 #define PRIMITIVE_VIEWS_CAMERA 1u
 // Rounding of points that are turned into the camera's view, over that of differences of positions.

@@ -14,7 +14,7 @@ layout(constant_id = 31) const uint PRIMITIVE_STORAGE = PRIMITIVE_STORAGE_CONTIG
 layout(constant_id = 32) const uint PRIMITIVE_COVERAGE = PRIMITIVE_COVERAGE_CONSERVATIVE;
 layout(constant_id = 33) const uint PRIMITIVE_SKIP = 1u;
 layout(constant_id = 34) const uint PRIMITIVE_PYRAMID = PRIMITIVE_PYRAMID_OFF;
-// The other value of each is the paper's and loses hits.
+// Options with a second value that is the paper's and loses hits.
 layout(constant_id = 35) const uint PRIMITIVE_ACCEPT = PRIMITIVE_ACCEPT_T;
 layout(constant_id = 36) const uint PRIMITIVE_STOP = PRIMITIVE_STOP_BEST;
 layout(constant_id = 37) const uint PRIMITIVE_DEPTHS = PRIMITIVE_DEPTHS_CLIPPED;

@@ -17,32 +17,33 @@
 #define SCENE_BINDING_EMISSIVE_TRIANGLES 9u
 #define SCENE_BINDING_ENVIRONMENT_RADIANCE 10u
 #define SCENE_BINDING_ENVIRONMENT_CDF 11u
-// Texels beyond the first run.
+// Binding of the texels beyond the first run.
 #define SCENE_BINDING_TEXELS_1 12u
 #define SCENE_BINDING_TEXELS_2 13u
 #define SCENE_BINDING_TEXELS_3 14u
-// Buffers that texels are spread over.
+// Number of buffers that texels are spread over.
 #define SCENE_TEXEL_RUNS 4u
 
-// "This draw has no such attribute."
+// Absence of an attribute of a draw.
 #define ATTRIBUTE_NONE 0xFFFFFFFFu
 
 // Table of what rough glass loses (docs/shading.md, "Energy"): three blocks of rows, one for each roughness, of words:
 // one for each cosine, then their mean.
 #define GLASS_ROWS 16u
 #define GLASS_ROW_WORDS 17u
-// Indices closer to 1 than this do not bend: the half vector of refraction would be rounding noise.
+// Largest distance of an index from 1 at which refraction does not bend: the half vector would be rounding
+// noise.
 #define BSDF_STRAIGHT_INDEX 1.0e-3
-// Below this perceptual roughness the microfacet lobes are perfect mirrors.
+// Perceptual roughness below which the microfacet lobes are perfect mirrors.
 #define BSDF_SMOOTH_ROUGHNESS 0.03
-// Below this alpha, at most 0.002 of the light is lost under cosines above 0.1: it is left out.
+// Alpha below which the loss of light is left out: it is at most 0.002 under cosines above 0.1.
 #define ALBEDO_LOSSLESS_ALPHA 0.01
 
-// "This draw emits nothing."
+// Absence of emission of a draw.
 #define EMISSIVE_NONE 0xFFFFFFFFu
-// "No texture": the factor alone counts.
+// Absence of a texture: the factor alone counts.
 #define TEXTURE_NONE 0xFFFFFFFFu
-// "No material": a path that is in air, a surface whose structure stores none.
+// Absence of a material: a path that is in air, a surface whose structure stores none.
 #define MATERIAL_NONE 0xFFFFFFFFu
 
 // Largest magnitude of a posed coordinate, metres: its square is still finite in f32.
@@ -85,19 +86,19 @@
 #define SAMPLE_DELTA 2u
 #define SAMPLE_TRANSMITTED 4u
 
-// A path may be ended at random from this scattering on.
+// First scattering from which on a path may be ended at random.
 #define PATH_ROULETTE_BOUNCE 3u
-// Surfaces that one ray passes in a straight line; what lies beyond the next one is not seen, which is counted.
+// Number of surfaces that one ray passes in a straight line. Everything beyond the next surface is not seen,
+// which is counted.
 #define PATH_LAYER_LIMIT 4096u
 
-// WaveConstants.marks.
-// Paths that have not ended after this round are counted.
+// Mark in WaveConstants.marks: paths that have not ended after this round are counted.
 #define WAVE_ROUND_LAST 1u
-// The paths of this round were counted by the last one before it.
+// Mark in WaveConstants.marks: the last round before counted the paths of this round.
 #define WAVE_ROUND_RESUMES 2u
 
-// Value that a round of drawing keeps of the triangles that a pixel's ray hits: the smallest t, then, of those with
-// this t, the lowest primitive, as hits are ranked in traces.
+// Value that a round of drawing keeps of the triangles that a pixel's ray hits: the smallest t, then, among
+// triangles with this t, the lowest primitive, as hits are ranked in traces.
 #define VISIBILITY_NEAREST 0u
 #define VISIBILITY_LOWEST 1u
 

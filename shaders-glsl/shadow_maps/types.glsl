@@ -15,14 +15,14 @@ struct ShadowMapsHeader {
     uint first_point;     // first view of the first point; each has SHADOW_MAPS_CUBE_VIEWS
 };
 
-// The views of a light without extent. Shared, 8 bytes.
+// Views of a light without extent. Shared, 8 bytes.
 struct ShadowMapsLight {
     uint first_view;      // its first view
     uint view_count;      // 1, or SHADOW_MAPS_CUBE_VIEWS
 };
 
-// One square of texels. A point p is at (x, y, z) = (right, up, forward) . (p - origin), and on the map at (x, y), in
-// perspective at (x/z, y/z), which runs from -1 to 1. Depth is z, metres. Shared, 60 bytes.
+// View: one square of texels. A point p is at (x, y, z) = (right, up, forward) . (p - origin), and on the map
+// at (x, y), in perspective at (x/z, y/z), which runs from -1 to 1. Depth is z, metres. Shared, 60 bytes.
 struct ShadowMapsView {
     vec3 origin;          // the light; of a parallel view, the middle of its front side; metres relative to the frame origin
     vec3 right;           // 1/metre in a parallel view

@@ -1,6 +1,6 @@
-//! Reads the layout of buffer structs back out of SPIR-V: member names, offsets and sizes.
+//! Reader of the layout of buffer structs in SPIR-V: member names, offsets and sizes.
 //!
-//! Only what layout tests need is understood: scalars, vectors, matrices, arrays and structs with
+//! It understands only the types that layout tests need: scalars, vectors, matrices, arrays and structs with
 //! explicit offsets.
 
 use std::collections::HashMap;
@@ -20,30 +20,30 @@ const OP_MEMBER_DECORATE: u32 = 72;
 const DECORATION_ARRAY_STRIDE: u32 = 6;
 const DECORATION_OFFSET: u32 = 35;
 
-/// One member of a struct.
+/// Member of a struct.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Member {
     /// Name in GLSL.
     pub name: String,
-    /// Bytes from the start of the struct.
+    /// Offset from the start of the struct, bytes.
     pub offset: u32,
-    /// Bytes; 0 for a runtime array.
+    /// Size in bytes; 0 for a runtime array.
     pub size: u32,
 }
 
-/// A struct with explicit offsets.
+/// Layout of a struct with explicit offsets.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Layout {
     /// Name in GLSL.
     pub name: String,
     /// Members in order.
     pub members: Vec<Member>,
-    /// Distance between two of them in an array, where the module has such an array.
+    /// Stride of the struct in an array, bytes, if the module has such an array.
     pub stride: Option<u32>,
 }
 
 impl Layout {
-    /// Bytes up to the end of the last member.
+    /// Returns the number of bytes up to the end of the last member.
     pub fn size(&self) -> u32 {
         self.members.last().map_or(0, |member| member.offset + member.size)
     }
@@ -56,8 +56,8 @@ enum Type {
     Struct(Vec<u32>),
 }
 
-/// The structs with offsets that a module declares. A name may occur more than once (GLSL structs
-/// that are also used outside of buffers have a twin without offsets, which is left out).
+/// Returns the layouts of the structs with offsets that a module declares. A name may occur more than once
+/// (GLSL structs that are also used outside buffers have a twin without offsets, which is left out).
 pub fn layouts(words: &[u32]) -> Vec<Layout> {
     let mut names: HashMap<u32, String> = HashMap::new();
     let mut member_names: HashMap<(u32, u32), String> = HashMap::new();

@@ -15,7 +15,7 @@ pub mod layout;
 mod packed;
 pub mod records;
 
-/// Ids of specialisation constants, generated from the GLSL that declares them. No two constants have one.
+/// Ids of specialisation constants, generated from the GLSL that declares them. No two constants have one id.
 pub mod constant_ids {
     include!(concat!(env!("OUT_DIR"), "/constant_ids.rs"));
 }
@@ -28,25 +28,25 @@ pub mod constants {
 include!(concat!(env!("OUT_DIR"), "/shaders.rs"));
 include!(concat!(env!("OUT_DIR"), "/files.rs"));
 
-/// The folder that all includes are relative to, on the machine where this crate was built; elsewhere, and
-/// later, there is [`files`].
+/// Folder that all includes are relative to, on the machine where this crate was built. Programs that run
+/// elsewhere, or later, use [`files`].
 pub const ROOT: &str = env!("CARGO_MANIFEST_DIR");
 
-/// A file with GLSL.
+/// File with GLSL.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct GlslFile {
-    /// Relative to [`ROOT`], with `/` between folders: what an include names.
+    /// Name of the file relative to [`ROOT`], with `/` between folders, as an include names it.
     pub name: &'static str,
-    /// All of its text.
+    /// Whole text of the file.
     pub text: &'static str,
 }
 
-/// All GLSL, in the order of names, whatever features are on.
+/// Returns all GLSL files, in the order of names, whatever features are on.
 pub fn files() -> &'static [GlslFile] {
     FILES
 }
 
-/// A compiled module.
+/// Compiled module.
 pub struct Shader {
     /// Name in the permutation list; also the label of its pass.
     pub name: &'static str,
@@ -56,8 +56,8 @@ pub struct Shader {
 }
 
 impl Shader {
-    /// The module's words, which programs hold packed into a quarter of their bytes: a few milliseconds for
-    /// the largest.
+    /// Unpacks the module's words, which programs hold in a quarter of their bytes; this takes a few
+    /// milliseconds for the largest module.
     pub fn words(&self) -> Vec<u32> {
         packed::unpack(self.packed).expect("the build script unpacks every module once")
     }
@@ -69,12 +69,12 @@ impl std::fmt::Debug for Shader {
     }
 }
 
-/// The module of that name, if it was compiled.
+/// Returns the module of that name, if it was compiled.
 pub fn shader(name: &str) -> Option<&'static Shader> {
     ALL.iter().copied().find(|shader| shader.name == name)
 }
 
-/// The module's words.
+/// Returns the words of the module of that name.
 ///
 /// # Panics
 /// If no module of that name was compiled: the name is misspelt or its feature is off.
@@ -82,7 +82,7 @@ pub fn spirv(name: &str) -> Vec<u32> {
     shader(name).unwrap_or_else(|| panic!("no shader module `{name}` was compiled")).words()
 }
 
-// Parts of the build script, for their tests.
+// These modules are parts of the build script, included here for their tests.
 #[cfg(test)]
 #[path = "../build/comments.rs"]
 mod comments;
@@ -113,7 +113,7 @@ mod tests {
         }
         assert!(packed_bytes < bytes / 2, "{packed_bytes} of {bytes}");
         assert!(!ALL.is_empty() && pack::pack(&[1, 2, 3, 4, 5, 0]).is_none());
-        // Numbers of every size, and an instruction whose end is missing.
+        // The words are numbers of every size, and an instruction whose end is missing.
         let words = [1, 2, 3, 4, 5, 4 << 16 | 400, u32::MAX, 0, 70_000];
         assert_eq!(
             pack::pack(&words).and_then(|packed| packed::unpack(&packed)).as_deref(),
@@ -122,10 +122,10 @@ mod tests {
         assert!(pack::pack(&words[..8]).is_none());
     }
 
-    /// Instructions of a module's entry point once every call stands for what is called, as drivers compile
-    /// it.
+    /// Counts the instructions of a module's entry point after every call is replaced by the called function,
+    /// as drivers compile it.
     fn expanded_length(words: &[u32]) -> usize {
-        // Contents of a function: its own instructions, and the functions that it calls.
+        // A function's contents are its own instructions, and the functions that it calls.
         let mut functions: std::collections::HashMap<u32, (usize, Vec<u32>)> =
             std::collections::HashMap::new();
         let (mut entry, mut function, mut place) = (None, None, 5);
@@ -136,7 +136,8 @@ mod tests {
                 15 => entry = entry.or(Some(words[place + 2])),
                 54 => function = Some(words[place + 2]),
                 56 => function = None,
-                // Lines of source, variables, labels and what only names where branches meet again.
+                // These are lines of source, variables, labels and instructions that only name where branches
+                // meet again.
                 8 | 317 | 59 | 246 | 247 | 248 => {}
                 _ => {
                     if let Some(function) = function {
@@ -161,8 +162,8 @@ mod tests {
         sum
     }
 
-    /// A function that is called at several places is compiled as often, which takes most of the time to a
-    /// first picture and of the tests on drivers that compile on the processor.
+    /// Checks that no function is called at too many places: a driver compiles it as often, which takes most
+    /// of the time to a first picture and of the tests on drivers that compile on the processor.
     #[test]
     fn no_module_holds_many_copies_of_a_long_function() {
         let mut longer = Vec::new();

@@ -1,15 +1,15 @@
-//! Modules as programs and packages hold them: a form of SPIR-V that compression, which knows bytes alone,
-//! makes a quarter smaller, and that compressed.
+//! Packed form of modules in programs and packages: a form of SPIR-V that byte-wise compression makes a
+//! quarter smaller, then compressed.
 //!
 //! Opcodes and lengths of instructions come first, then their operands, all as numbers of one to five bytes.
-//! Most operands are ids of what came just before, and are kept as their distance to the highest id so far.
+//! Most operands are ids of recent results, and are kept as their distance to the highest id so far.
 
-/// Words of a module before its instructions.
+/// Number of words of a module before its instructions.
 pub(crate) const HEADER: usize = 5;
-/// An id that is at most so much higher than the highest one before is the highest from then on.
+/// Largest step by which an id may exceed the highest id before and become the highest.
 const AHEAD: u32 = 16;
 
-/// The words that were packed; none where the bytes are no such thing.
+/// Unpacks the words; `None` if the bytes are not a packed module.
 pub(crate) fn unpack(packed: &[u8]) -> Option<Vec<u32>> {
     let packed = miniz_oxide::inflate::decompress_to_vec(packed).ok()?;
     let mut packed = &packed[..];
@@ -35,14 +35,14 @@ pub(crate) fn unpack(packed: &[u8]) -> Option<Vec<u32>> {
     operands.is_empty().then_some(words)
 }
 
-/// The highest id so far.
+/// Highest id so far.
 #[derive(Default)]
 pub(crate) struct Ids {
     highest: u32,
 }
 
 impl Ids {
-    /// Distance of an id from a little above the highest, and the id at such a distance from it.
+    /// Returns the distance of an id from a little above the highest, and likewise the id at such a distance.
     pub(crate) fn apart(&self, id: u32) -> u32 {
         self.highest.wrapping_add(AHEAD).wrapping_sub(id)
     }
@@ -54,7 +54,7 @@ impl Ids {
     }
 }
 
-/// A number of seven bits a byte, the lowest first; the highest bit says that more follow.
+/// Reads a number of seven bits per byte, the lowest first; the highest bit tells that more bytes follow.
 fn take(bytes: &mut &[u8]) -> Option<u64> {
     let mut number = 0;
     for shift in (0..35).step_by(7) {

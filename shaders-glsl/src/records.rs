@@ -1,8 +1,8 @@
-//! The records that buffers of shaders hold, and their push constants, generated from the GLSL that declares
-//! them, with its comments and as it lays them out: scalar block layout.
+//! Records of the buffers of shaders, and their push constants, generated from the GLSL that declares them,
+//! with its comments and in its layout: scalar block layout.
 //!
-//! `Default` is zeros, as in a buffer that was filled with them; a record of which zeros are no sensible
-//! value has none.
+//! `Default` is all zeros, as in a buffer that was filled with zeros; a record for which zeros are not a
+//! sensible value has no `Default`.
 
 use bytemuck::{Pod, Zeroable};
 
@@ -21,24 +21,24 @@ pub mod test_kernels {
     include!(concat!(env!("OUT_DIR"), "/test_records.rs"));
 }
 
-/// Layout of a record in Rust, as data. A test holds it against every compiled module that has the record.
+/// Layout of a record in Rust, as data. A test compares it with every compiled module that has the record.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RecordLayout {
     /// Name in GLSL.
     pub name: &'static str,
-    /// Bytes.
+    /// Size in bytes.
     pub size: usize,
-    /// Members in order: name, offset in bytes, bytes.
+    /// Members in order: name, offset in bytes, size in bytes.
     pub members: &'static [(&'static str, usize, usize)],
 }
 
 impl BvhNode {
-    /// A node without children that is reached by a link.
+    /// Makes a node without children that is reached by a link.
     pub fn empty(parent: u32) -> Self {
         Self { child_0: BVH_NONE, child_1: BVH_NONE, parent, ..Self::zeroed() }
     }
 
-    /// Sets reference and box of the first child (0), or else of the second.
+    /// Sets reference and box of the first child (0), or of the second.
     pub fn set_child(&mut self, child: u32, reference: u32, [lower, upper]: [[f32; 3]; 2]) {
         if child == 0 {
             (self.child_0, self.lower_0, self.upper_0) = (reference, lower, upper);
@@ -47,18 +47,18 @@ impl BvhNode {
         }
     }
 
-    /// Reference and box of both children.
+    /// Returns reference and box of both children.
     pub fn children(&self) -> [(u32, [[f32; 3]; 2]); 2] {
         [(self.child_0, [self.lower_0, self.upper_0]), (self.child_1, [self.lower_1, self.upper_1])]
     }
 }
 
 impl BvhNodeOfFour {
-    /// A node with these children, one to four, that is reached by a link: reference and box of each.
+    /// Makes a node with these children, one to four, that is reached by a link: reference and box of each.
     pub fn new(parent: u32, children: &[(u32, [[f32; 3]; 2])]) -> Self {
         let mut node = Self { children: [BVH_NONE; 4], parent, ..Self::zeroed() };
         for slot in 0..4 {
-            // The box of an absent child changes no union.
+            // The box of an absent child does not change a union.
             let (reference, bounds) = children.get(slot).copied().unwrap_or((BVH_NONE, children[0].1));
             node.children[slot] = reference;
             node.set_box(slot, bounds);
@@ -78,7 +78,7 @@ impl BvhNodeOfFour {
         }
     }
 
-    /// Number, reference and box of the children that there are.
+    /// Returns number, reference and box of the existing children.
     pub fn children(&self) -> impl Iterator<Item = (u32, u32, [[f32; 3]; 2])> {
         let node = *self;
         (0..4_usize).filter(move |slot| node.children[*slot] != BVH_NONE).map(move |slot| {
@@ -90,14 +90,14 @@ impl BvhNodeOfFour {
 }
 
 impl BvhRecord {
-    /// All corners.
+    /// Returns all corners.
     pub fn corners(&self) -> [[f32; 3]; 3] {
         [self.a, self.b, self.c]
     }
 }
 
 impl FilmPixel {
-    /// Mean over the samples; black where there is none.
+    /// Returns the mean over the samples; black without samples.
     pub fn mean(&self) -> [f32; 3] {
         if self.samples == 0 { [0.0; 3] } else { self.sum.map(|x| x / self.samples as f32) }
     }
@@ -111,7 +111,7 @@ impl Hit {
 }
 
 impl Ray {
-    /// A ray without limits, exclusion or cone.
+    /// Makes a ray without limits, exclusion or cone.
     pub fn new(origin: [f32; 3], direction: [f32; 3]) -> Self {
         Self {
             origin,
@@ -125,8 +125,8 @@ impl Ray {
         }
     }
 
-    /// This ray as a shadow ray that leads to the light of that number: lights without extent come first,
-    /// then emitting triangles. A number beyond `RAY_LIGHT_MOST - 1` has no room: the ray counts as one to a
+    /// Makes this ray a shadow ray to the light of that number: lights without extent come first, then
+    /// emitting triangles. A number beyond `RAY_LIGHT_MOST - 1` does not fit: the ray counts as one to a
     /// light without a map.
     #[must_use]
     pub fn with_light(self, light: u32) -> Self {
@@ -137,8 +137,8 @@ impl Ray {
         }
     }
 
-    /// The number of the light that a shadow ray leads to, as of [`Ray::with_light`]; nothing for every other
-    /// ray.
+    /// Returns the number of the light that a shadow ray leads to, as of [`Ray::with_light`]; `None` for
+    /// every other ray.
     pub fn light(&self) -> Option<u32> {
         (self.flags >> RAY_LIGHT_SHIFT).checked_sub(1)
     }

@@ -17,10 +17,10 @@ layout(constant_id = 74) const uint VOXEL_PAGE = 4u;
 layout(constant_id = 75) const uint VOXEL_SORT = 1u;
 layout(constant_id = 76) const uint VOXEL_PAYLOAD = VOXEL_PAYLOAD_INDEX;
 layout(constant_id = 77) const uint VOXEL_STORAGE = VOXEL_STORAGE_CONTIGUOUS;
-// 1 where fragments keep their triangle behind a payload without it.
+// 1 if fragments keep their triangle behind a payload without it.
 layout(constant_id = 78) const uint VOXEL_IDS = 0u;
 layout(constant_id = 79) const uint VOXEL_MARKED = VOXEL_MARKED_BY_TRIANGLES;
-// Parity only.
+// VOXEL_INSIDE_*: fragments that parity counts; only for acceptance by parity.
 layout(constant_id = 81) const uint VOXEL_INSIDE = VOXEL_INSIDE_COLUMN;
 layout(constant_id = 82) const uint VOXEL_ENDS = ENDS_TOUCHING;
 layout(constant_id = 83) const uint VOXEL_LEAVES = VOXEL_LEAVES_FRAGMENTS;

@@ -41,14 +41,14 @@ use shaderc::{
 
 pub use reduce::without_debug_text;
 
-/// Why a module was not compiled.
+/// Reason for which a module was not compiled.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum CompileError {
     /// The entry file could not be read.
     #[error("cannot read {path}: {source}")]
     Read {
-        /// The entry file.
+        /// Path of the entry file.
         path: PathBuf,
         /// Error of the operating system.
         source: std::io::Error,
@@ -56,22 +56,22 @@ pub enum CompileError {
     /// The file name does not end in a known stage.
     #[error("{path}: the name must end in .comp, .vert or .frag")]
     Stage {
-        /// The entry file.
+        /// Path of the entry file.
         path: PathBuf,
     },
     /// shaderc could not be started.
     #[error("shaderc could not be initialised: {0}")]
     Shaderc(String),
-    /// The compiler's own messages.
+    /// The GLSL is wrong; the text holds the compiler's own messages.
     #[error("{0}")]
     Glsl(String),
 }
 
-/// Options of every module in addition to its text: words kept from before are of the same module only where
-/// these are equal as well.
+/// Options of every module in addition to its text: kept words belong to the module only if these are equal
+/// as well.
 const OPTIONS: &str = "// Vulkan 1.2, not optimised, what the entry point reaches\n";
 
-/// One module to compile.
+/// Module to compile.
 #[derive(Clone, Debug)]
 pub struct Module<'a> {
     /// Entry file relative to a root, such as `ads/surfaces.comp`.
@@ -80,12 +80,11 @@ pub struct Module<'a> {
     pub defines: &'a [(String, String)],
 }
 
-/// Compiles a module. Returns SPIR-V words: what its entry point reaches. The entry and what it includes are
-/// relative to the roots; the first root that has a file is the one it is read from.
+/// Compiles a module, and returns the SPIR-V words of everything that its entry point reaches. The entry and
+/// its includes are relative to the roots; a file is read from the first root that has it.
 ///
 /// # Errors
-/// No root has the entry, its name has no stage, or the GLSL is wrong; the message then names
-/// file and line.
+/// No root has the entry, its name has no stage, or the GLSL is wrong; the message then names file and line.
 pub fn compile(roots: &[impl AsRef<Path>], module: &Module<'_>) -> Result<Vec<u32>, CompileError> {
     let roots = owned(roots);
     let (source, kind) = entry(&roots, module)?;
@@ -95,11 +94,11 @@ pub fn compile(roots: &[impl AsRef<Path>], module: &Module<'_>) -> Result<Vec<u3
     Ok(reduce::only_reached(artifact.as_binary()))
 }
 
-/// The text of a module with includes and macros expanded, after a line of options: all that its SPIR-V
-/// depends on, at a fraction of the cost of compiling it.
+/// Expands includes and macros in the text of a module, after a line of options. The result is everything
+/// that the SPIR-V depends on, at a fraction of the cost of compiling it.
 ///
 /// # Errors
-/// As [`compile`], as far as directives go.
+/// As for [`compile`], as far as directives are concerned.
 pub fn preprocess(roots: &[impl AsRef<Path>], module: &Module<'_>) -> Result<String, CompileError> {
     let roots = owned(roots);
     let (source, _) = entry(&roots, module)?;
@@ -109,7 +108,7 @@ pub fn preprocess(roots: &[impl AsRef<Path>], module: &Module<'_>) -> Result<Str
     Ok(OPTIONS.to_owned() + &artifact.as_text())
 }
 
-/// SPIR-V words as the bytes of a file.
+/// Converts SPIR-V words to the bytes of a file.
 pub fn bytes(words: &[u32]) -> Vec<u8> {
     words.iter().flat_map(|word| word.to_le_bytes()).collect()
 }
@@ -118,7 +117,7 @@ fn owned(roots: &[impl AsRef<Path>]) -> Vec<PathBuf> {
     roots.iter().map(|root| root.as_ref().to_owned()).collect()
 }
 
-/// The text of a file of the first root that has it; else what the system says of the last one.
+/// Reads the text of a file from the first root that has it; the error is that of the last root.
 fn read(roots: &[PathBuf], name: &str) -> std::io::Result<String> {
     let mut missing = std::io::Error::other("there is no root folder");
     for root in roots {
@@ -172,8 +171,8 @@ fn options(roots: Vec<PathBuf>, module: &Module<'_>) -> Result<CompileOptions<'s
     Ok(options)
 }
 
-/// The file that an include names: one whose first folder is a macro's name in lower case is in the folder of
-/// its value. `structure/trace.glsl` with `STRUCTURE=bvh` is `bvh/trace.glsl`.
+/// Returns the file that an include names: if its first folder is a macro's name in lower case, the value of
+/// the macro replaces it. `structure/trace.glsl` with `STRUCTURE=bvh` is `bvh/trace.glsl`.
 fn resolved(requested: &str, defines: &[(String, String)]) -> String {
     let (folder, file) = requested.split_once('/').unwrap_or(("", requested));
     match defines.iter().find(|(name, value)| name.to_lowercase() == folder && !value.is_empty()) {
@@ -182,7 +181,7 @@ fn resolved(requested: &str, defines: &[(String, String)]) -> String {
     }
 }
 
-/// A line of the permutation list.
+/// Line of the permutation list.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Permutation {
     /// Name of the module, such as `bvh/trace`.
@@ -196,7 +195,7 @@ pub struct Permutation {
 }
 
 impl Permutation {
-    /// This module with pools reached by address.
+    /// Returns this module with pools reached by address.
     fn by_address(&self) -> Self {
         let mut twin = self.clone();
         twin.name += ".address";
@@ -204,8 +203,8 @@ impl Permutation {
         twin
     }
 
-    /// A module for each pair of `structures` where a macro is `A<B=*`: these are the values of A and B,
-    /// which stand for them in its name and features. Else the module itself.
+    /// Returns a module for each pair of `structures` if a macro is `A<B=*`: the two structures are the
+    /// values of A and B, and replace them in its name and features. Otherwise returns the module itself.
     ///
     /// # Errors
     /// `A<B` has another value than `*`.
@@ -234,8 +233,8 @@ impl Permutation {
     }
 }
 
-/// The lines that one with `{x,y}` stands for: one for each choice in the name, where the group at the same
-/// place behind the `=` is its choice at the same place. A choice may be empty.
+/// Expands a line with `{x,y}` into one line for each choice in the name; the group at the same place after
+/// the `=` takes its choice at the same place. A choice may be empty.
 fn choices(line: &str) -> Result<Vec<String>, String> {
     let (name, rest) = line.split_once('=').ok_or("expected `name = entry MACRO=value ...`")?;
     let group = |text: &str| -> Option<[String; 3]> {
@@ -263,7 +262,7 @@ fn choices(line: &str) -> Result<Vec<String>, String> {
 /// starts a comment.
 ///
 /// # Errors
-/// Names the line that is none of these.
+/// A line has none of these forms; the message names it.
 pub fn read_permutations(text: &str) -> Result<Vec<Permutation>, String> {
     let (mut features, mut by_address) = (Vec::new(), false);
     let mut permutations = Vec::new();
@@ -310,7 +309,7 @@ pub fn read_permutations(text: &str) -> Result<Vec<Permutation>, String> {
     Ok(permutations)
 }
 
-/// Examples of the readme, compiled.
+/// Compiles the examples of the readme as documentation tests.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 struct Readme;

@@ -1,9 +1,9 @@
 //! Removal of unused parts of a module: functions that nothing calls, variables that nothing uses, debug
 //! text.
 //!
-//! GLSL that is included whole leaves most of itself unused, and a compiler that does not optimise hands all
-//! of it on. Drivers would drop it again, but a variable that is there counts as used where a device limits
-//! the buffers of a stage, and every byte lies in the program.
+//! GLSL files that are included whole leave most of their functions unused, and a compiler that does not
+//! optimise keeps all of them. Drivers would drop them, but an unused variable counts as used where a device
+//! limits the buffers of a stage, and every byte is part of the program.
 
 use std::borrow::Cow;
 use std::collections::{HashMap, HashSet};
@@ -18,21 +18,21 @@ const OP_FUNCTION_CALL: u32 = 57;
 const OP_VARIABLE: u32 = 59;
 const OP_DECORATE: u32 = 71;
 const OP_LABEL: u32 = 248;
-/// OpSourceContinued, OpSource, OpSourceExtension, OpName, OpMemberName, OpString, OpLine, OpNoLine,
-/// OpModuleProcessed.
+/// Opcodes of debug text: OpSourceContinued, OpSource, OpSourceExtension, OpName, OpMemberName, OpString,
+/// OpLine, OpNoLine, OpModuleProcessed.
 const DEBUG: [u32; 9] = [2, 3, 4, 5, 6, 7, 8, 317, 330];
-/// Instructions of functions that have no result: OpNop, OpLine, OpFunctionEnd, OpStore, OpCopyMemory,
-/// OpImageWrite, OpControlBarrier, OpMemoryBarrier, OpAtomicStore, OpLoopMerge, OpSelectionMerge, OpBranch,
-/// OpBranchConditional, OpSwitch, OpKill, OpReturn, OpReturnValue, OpUnreachable, OpNoLine,
-/// OpTerminateInvocation.
+/// Opcodes of instructions of functions that have no result: OpNop, OpLine, OpFunctionEnd, OpStore,
+/// OpCopyMemory, OpImageWrite, OpControlBarrier, OpMemoryBarrier, OpAtomicStore, OpLoopMerge,
+/// OpSelectionMerge, OpBranch, OpBranchConditional, OpSwitch, OpKill, OpReturn, OpReturnValue, OpUnreachable,
+/// OpNoLine, OpTerminateInvocation.
 const WITHOUT_RESULT: [u32; 20] =
     [0, 8, 56, 62, 63, 99, 224, 225, 228, 246, 247, 249, 250, 251, 252, 253, 254, 255, 317, 4416];
-/// Instructions of functions whose operands are no variables, or numbers that could be taken for one:
-/// OpVectorShuffle, OpCompositeExtract, OpCompositeInsert, OpLoopMerge, OpSelectionMerge,
+/// Opcodes of instructions of functions whose operands are not variables, or are numbers that could be
+/// mistaken for one: OpVectorShuffle, OpCompositeExtract, OpCompositeInsert, OpLoopMerge, OpSelectionMerge,
 /// OpBranchConditional, OpSwitch, OpLine.
 const NAMES_NO_VARIABLE: [u32; 8] = [8, 79, 81, 82, 246, 247, 250, 251];
 
-/// The instructions of a module; the last one is cut where the module is.
+/// Iterates over the instructions of a module; the last one is cut where the module is cut.
 fn instructions(words: &[u32]) -> impl Iterator<Item = &[u32]> {
     let mut rest = words.get(HEADER_WORDS..).unwrap_or_default();
     std::iter::from_fn(move || {
@@ -47,7 +47,7 @@ fn operation(instruction: &[u32]) -> u32 {
     instruction[0] & 0xffff
 }
 
-/// The module with those instructions alone that `keep` answers, as it answers them.
+/// Returns the module with only the instructions for which `keep` returns one, in the form that it returns.
 fn filtered<'a>(words: &'a [u32], keep: impl FnMut(&'a [u32]) -> Option<Cow<'a, [u32]>>) -> Vec<u32> {
     let mut kept = words[..HEADER_WORDS.min(words.len())].to_vec();
     for instruction in instructions(words).filter_map(keep) {
@@ -56,13 +56,13 @@ fn filtered<'a>(words: &'a [u32], keep: impl FnMut(&'a [u32]) -> Option<Cow<'a, 
     kept
 }
 
-/// A module without names, source text and lines, none of which changes what it does.
+/// Returns a module without names, source text and lines, none of which changes its effect.
 pub fn without_debug_text(words: &[u32]) -> Vec<u32> {
     filtered(words, |instruction| (!DEBUG.contains(&operation(instruction))).then(|| instruction.into()))
 }
 
-/// A module without the functions that its entry points do not reach, and without the variables that only
-/// those use.
+/// Returns a module without the functions that its entry points do not reach, and without the variables that
+/// only those functions use.
 pub(crate) fn only_reached(words: &[u32]) -> Vec<u32> {
     let functions = Functions::of(words);
     let reached = functions.reached();
@@ -77,7 +77,7 @@ pub(crate) fn only_reached(words: &[u32]) -> Vec<u32> {
             }
         }
     }
-    // Variables of the module come before its functions.
+    // Variables of the module precede its functions.
     for instruction in instructions(words).take_while(|instruction| operation(instruction) != OP_FUNCTION) {
         if operation(instruction) == OP_VARIABLE {
             gone.extend(result(instruction).filter(|id| !named.contains(id)));
@@ -108,7 +108,7 @@ pub(crate) fn only_reached(words: &[u32]) -> Vec<u32> {
     })
 }
 
-/// The functions of a module.
+/// Functions of a module.
 #[derive(Default)]
 struct Functions<'a> {
     bodies: HashMap<u32, Vec<&'a [u32]>>,
@@ -135,7 +135,7 @@ impl<'a> Functions<'a> {
         functions
     }
 
-    /// Those that run.
+    /// Returns the ids of the functions that run.
     fn reached(&self) -> HashSet<u32> {
         let mut reached = HashSet::new();
         let mut left = self.entries.clone();
@@ -153,7 +153,7 @@ impl<'a> Functions<'a> {
     }
 }
 
-/// Id that an instruction of a function, or a global variable, defines.
+/// Returns the id that an instruction of a function, or a global variable, defines.
 fn result(instruction: &[u32]) -> Option<u32> {
     match operation(instruction) {
         operation if WITHOUT_RESULT.contains(&operation) => None,
@@ -162,18 +162,19 @@ fn result(instruction: &[u32]) -> Option<u32> {
     }
 }
 
-/// Ids in an instruction of a function, all variables that it uses among them.
+/// Iterates over the ids in an instruction of a function, which include all variables that it uses.
 fn variables_named(instruction: &[u32]) -> impl Iterator<Item = u32> {
     let operation = operation(instruction);
     let operands = if NAMES_NO_VARIABLE.contains(&operation) { &[] } else { &instruction[1..] };
-    // The number of an extended instruction is no id.
+    // The number of an extended instruction is not an id.
     let number = if operation == OP_EXT_INST { Some(3) } else { None };
     operands.iter().enumerate().filter(move |(place, _)| Some(*place) != number).map(|(_, id)| *id)
 }
 
-/// An entry point whose interface lacks what is gone.
+/// Returns an entry point without the removed variables in its interface.
 fn entry_point(instruction: &[u32], gone: &HashSet<u32>) -> Vec<u32> {
-    // Execution model, function, then a name that ends in the first word with a zero byte.
+    // The operands are execution model and function, then a name that ends in the first word with a zero
+    // byte.
     let name = &instruction[3.min(instruction.len())..];
     let name_words =
         name.iter().position(|word| word.to_le_bytes().contains(&0)).map_or(name.len(), |last| last + 1);
@@ -194,7 +195,8 @@ mod tests {
         words
     }
 
-    /// Function 1 calls 2; nothing calls 3. Each stores to a variable: 11, 12, 13.
+    /// Makes a module in which function 1 calls 2, and nothing calls 3. Each stores to a variable: 11, 12,
+    /// 13.
     fn module() -> Vec<u32> {
         let mut words = vec![0x0723_0203, 0x0001_0500, 0, 50, 0];
         words.extend(op(OP_ENTRY_POINT, &[5, 1, u32::from_le_bytes(*b"main"), 0, 11, 12, 13, 14]));
@@ -209,7 +211,8 @@ mod tests {
         for (function, calls) in [(1, Some(2)), (2, None), (3, Some(2))] {
             words.extend(op(OP_FUNCTION, &[20, function, 0, 21]));
             words.extend(op(OP_LABEL, &[function + 40]));
-            // The result of 3 is 33; a number that equals a variable's id is none.
+            // The result of function 3 is 33; a literal number that equals a variable's id is not a use of
+            // it.
             words.extend(op(81, &[20, function + 30, 22, 14]));
             words.extend(op(62, &[function + 10, function + 30]));
             if let Some(called) = calls {

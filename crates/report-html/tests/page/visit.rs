@@ -12,7 +12,7 @@ const PATIENCE: Duration = Duration::from_secs(120);
 /// sideways.
 pub const LOOK: &str = r##"<script>
 addEventListener("load", () => {
-  // In a frame the answers go to the outer page, whose elements the test reads.
+  // In a frame the answers go to the page around it, whose elements are the ones that are read.
   const report = (name, value) => parent.document.body.setAttribute(`data-probe-${name}`, value);
   const areas = [...document.querySelectorAll(".area")];
   report("areas", areas.length);
