@@ -13,12 +13,13 @@ uvec4 abuffer_pack_attributes(uint primitive, vec2 barycentrics) {
     if (ABUFFER_PAYLOAD == ABUFFER_PAYLOAD_NORMAL) {
         return uvec4(stored_pack_front(s), 0u, 0u, 0u);
     }
-    // However thin a volume is, its boundary is distinguished from a thin wall.
+    // A thin volume is never stored with thickness 0, which would make its boundary a thin wall.
     float thickness = s.thickness > 0.0 ? max(s.thickness, 1.0 / 65535.0) : 0.0;
     return uvec4(stored_pack(s), stored_pack_terms(s), packUnorm2x16(vec2(s.ior / 4.0, thickness)));
 }
 
-// The surface of a fragment that does not emit and that a ray hits at t, known within `position_error` metres.
+// Returns the surface of a fragment that does not emit and that a ray hits at t, known within
+// `position_error` metres.
 Surface abuffer_attributes_surface(uvec4 words, Ray ray, float t, float position_error) {
     Surface s = stored_surface(words.xy, ray, t, position_error);
     vec2 volume = unpackUnorm2x16(words.w);

@@ -12,7 +12,8 @@
 #include "abuffer/visit.glsl"
 #endif
 
-// Behind the sums of the scan, where long lists are enqueued once all triangles have been visited.
+// Queue of large triangles, stored behind the sums of the scan; long lists use it after all triangles have
+// been visited.
 #define LargeRef AbufferRef
 #define LARGE_WORD(s, place) ABUFFER_POOL(s, scratch)[abuffer_scan_words(s) + place]
 #define LARGE_HEADER(s) ABUFFER_HEADER(s)
@@ -25,12 +26,12 @@ uint bin_view_count() {
     return (ABUFFER_HAS_CUBE ? VIEW_FACES : 0u) + (ABUFFER_HAS_CAMERA ? 1u : 0u);
 }
 
-// The number of a view by its place among those that are built.
+// Returns the number of a view by its place among those that are built.
 uint bin_view(uint place) {
     return place < VIEW_FACES && ABUFFER_HAS_CUBE ? place : ABUFFER_CAMERA;
 }
 
-// A triangle in a view, and the first and last cell that may keep it, the same in every pass.
+// Triangle in a view, with the first and last cell that may keep it; equal in every pass.
 struct Bin {
     uint primitive;
     uint view;
@@ -48,7 +49,7 @@ bool bin_load(uint primitive, out BinTriangle triangle) {
     return true;
 }
 
-// False where no cell of the view keeps the triangle.
+// Begins a triangle in a view; false if no cell of the view keeps the triangle.
 bool bin_begin(BinTriangle triangle, uint place, out Bin bin) {
     bin.primitive = triangle.primitive;
     bin.view = bin_view(place);

@@ -12,7 +12,7 @@ uint abuffer_pyramid_cells(AbufferRef s, uint view) {
     return abuffer_resolution(s, view) + 2u;
 }
 
-// Level 1 of the faces, or of the camera.
+// Returns level 1 of the faces, or of the camera.
 PyramidLevel abuffer_pyramid_first(AbufferRef s, uint view) {
     uint base = abuffer_marks(s) + abuffer_mark_sets() * abuffer_mark_words(s);
     PyramidLevel cube = pyramid_first(abuffer_pyramid_cells(s, 0u), VIEW_FACES, base);

@@ -9,14 +9,14 @@
 #include "ads/geometry.glsl"
 #include "abuffer/blocks.glsl"
 
-// The box that a triangle lies in.
+// Returns the box that contains a triangle.
 uint abuffer_box_of(uint primitive) {
     uint draws = max(geometry_header.draw_count, 1u);
     return geometry_draw(primitive) / ((draws + ABUFFER_BOXES - 1u) / ABUFFER_BOXES);
 }
 
-// First word of a box: the complements of its lower corner's keys, then its upper corner's keys. A cleared box is empty,
-// and all six words are integer maxima.
+// Returns the first word of a box: the complements of its lower corner's keys, then its upper corner's keys.
+// A cleared box is empty, and all six words are integer maxima.
 uint abuffer_box_word(AbufferRef s, uint box) {
     uint base = abuffer_marks(s) + abuffer_mark_sets() * abuffer_mark_words(s);
     if (ABUFFER_MARCH == ABUFFER_MARCH_PYRAMID) {
@@ -26,14 +26,14 @@ uint abuffer_box_word(AbufferRef s, uint box) {
 }
 
 #ifndef STRUCTURE_READ_ONLY
-// Makes a word at least as large. Most triangles change none.
+// Raises a word to at least `key`. Most triangles change none.
 void abuffer_widen_box_word(AbufferRef s, uint word, uint key) {
     if (ABUFFER_POOL(s, bounds)[word] < key) {
         atomicMax(ABUFFER_POOL(s, bounds)[word], key);
     }
 }
 
-// Widens a box by the bounds of a triangle, frame of the world.
+// Widens a box by the bounds of a triangle, in the frame of the world.
 void abuffer_widen_box(AbufferRef s, uint box, vec3 lower, vec3 upper) {
     uint word = abuffer_box_word(s, box);
     for (uint axis = 0u; axis < 3u; axis++) {
@@ -43,7 +43,7 @@ void abuffer_widen_box(AbufferRef s, uint box, vec3 lower, vec3 upper) {
 }
 #endif
 
-// The corners of a box, frame of the world; false where nothing is in it.
+// Returns the corners of a box, in the frame of the world; false if the box is empty.
 bool abuffer_box(AbufferRef s, uint box, out vec3 lower, out vec3 upper) {
     uint word = abuffer_box_word(s, box);
     for (uint axis = 0u; axis < 3u; axis++) {
@@ -53,8 +53,8 @@ bool abuffer_box(AbufferRef s, uint box, out vec3 lower, out vec3 upper) {
     return ABUFFER_POOL(s, bounds)[word + 3u] != 0u;
 }
 
-// Largest shift by rounding of a point of a box, relative to the eye, and a corner of a triangle in it, against
-// each other in a view. Turning a point into a face does not round.
+// Returns the largest shift by rounding, in a view, of a point of a box, relative to the eye, against a
+// corner of a triangle in the box. Turning a point into a face does not round.
 vec3 abuffer_box_rounding(AbufferRef s, uint view, vec3 lower, vec3 upper) {
     if (view != ABUFFER_CAMERA) {
         return vec3(0.0);
@@ -65,8 +65,9 @@ vec3 abuffer_box_rounding(AbufferRef s, uint view, vec3 lower, vec3 upper) {
     return 1.0e-6 * sums;
 }
 
-// Finds where a view sees a box with corners relative to the eye: its corners along the axes of the view, and the
-// bounds in x/z and y/z (lower, upper) of the cells whose centres its contents may cover. False where there are none.
+// Finds where a view sees a box with corners relative to the eye: its corners along the axes of the view, and
+// the bounds in x/z and y/z (lower, upper) of the cells whose centres its contents may cover. False if there
+// are none.
 bool abuffer_see_box(AbufferRef s, uint view, vec3 lower, vec3 upper, out vec3 first, out vec3 last, out vec4 bounds) {
     float side = float(abuffer_resolution(s, view));
     float limit = 1.0 + 2.0 / side;
@@ -86,9 +87,9 @@ bool abuffer_see_box(AbufferRef s, uint view, vec3 lower, vec3 upper, out vec3 f
     first -= rounding;
     last += rounding;
     bounds = vec4(-limit, -limit, limit, limit);
-    // A box that reaches the plane of the eye, or holds the eye, may be seen anywhere.
+    // A box that reaches the plane of the eye, or contains the eye, may be seen anywhere.
     if (first.z > 1.0e-6 * last.z) {
-        // 1/32 of a cell for the hardware's grid.
+        // The margin is 1/32 of a cell for the hardware's grid, and the rounding.
         vec2 margin = 1.0 / (16.0 * side) + 1.0e-6 + (rounding.xy + limit * rounding.z) / first.z;
         bounds = vec4(max(places.xy - margin, bounds.xy), min(places.zw + margin, bounds.zw));
     }

@@ -26,7 +26,7 @@ void main() {
     vec3 direction = coverage_center(place, resolution);
     uint axis = triangle_major_axis(direction);
     vec2 ends = vec2(first[axis], last[axis]) / direction[axis];
-    // A quotient rounds differently from stage to stage.
+    // The factor is needed because a quotient rounds differently from stage to stage.
     float lower = min(ends.x, ends.y) * (1.0 - 1.0e-6);
     float upper = max(ends.x, ends.y) * (1.0 + 1.0e-6);
     if (upper > 0.0) {

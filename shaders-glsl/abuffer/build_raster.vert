@@ -21,7 +21,7 @@ void main() {
     vec3 c;
     abuffer_view_vertices(build.structure, primitive, view, a, b, c);
 #ifdef CONSERVATIVE
-    // Half a cell to its sides, and 1/32 for the hardware's grid.
+    // The margin is half a cell to its sides, and 1/32 for the hardware's grid.
     float margin = abuffer_conservative_margin(build.structure, a, b, c) + (1.0 + 1.0 / 16.0) / float(resolution);
     gl_Position = coverage_proposal_within(a, b, c, corner, resolution, margin);
 #else

@@ -10,8 +10,8 @@
 #include "abuffer/nodes.glsl"
 #include "abuffer/stored_plane.glsl"
 
-// True if a fragment without an id replaces the best hit: it is nearer, or as near as another such one with lower
-// words.
+// True if a fragment without an id replaces the best hit: it is nearer, or as near as another such fragment
+// and has the lower words.
 bool abuffer_is_better(AbufferRef s, Hit best, float t, uint link) {
     bool tie = t == best.t && best.primitive == PRIMITIVE_UNKNOWN;
     return t < best.t || (tie && abuffer_payload_is_lower(s, link, floatBitsToUint(best.a)));
@@ -34,7 +34,8 @@ bool abuffer_is_passed(AbufferRef s, Ray ray, uint primitive, uint link) {
     return stored_is_passed(ray, uvec2(abuffer_data(s, link, 0u), abuffer_data(s, link, 1u)));
 }
 
-// Tests a fragment that a ray hits at t, where its depth is z, logs it, and lets it replace the best hit if it may.
+// Tests a fragment that a ray hits at t, where its depth is z, logs the test, and replaces the best hit if
+// the fragment is accepted.
 void abuffer_accept_depth(AbufferRef s, Ray ray, uint primitive, uint link, float z, float t, inout Hit best) {
     bool better;
     if (ABUFFER_PAYLOAD == ABUFFER_PAYLOAD_INDEX) {
@@ -59,9 +60,9 @@ void abuffer_accept_depth(AbufferRef s, Ray ray, uint primitive, uint link, floa
     }
 }
 
-// Tests the stored plane of a fragment within [t_low, t_high], logs it, and lets it replace the best hit if
-// it may. Rays that leave a surface begin a cell off it, so that they need no special case. The
-// caller counts the test.
+// Tests the stored plane of a fragment within [t_low, t_high], logs the test, and replaces the best hit if
+// the plane is accepted. Rays that leave a surface begin a cell off it, so that they need no special case.
+// The caller counts the test.
 void abuffer_test_stored_plane(AbufferRef s, Ray ray, uint link, float t_low, float t_high, inout Hit best) {
     precise vec3 origin = ray.origin - abuffer_eye(s);
     float t;

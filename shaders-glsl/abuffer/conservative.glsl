@@ -6,12 +6,12 @@
 
 #include "abuffer/accessors.glsl"
 
-// Word of a cell's head, the last of its bounds.
+// Returns the word of a cell's head, the last of its bounds.
 uint abuffer_conservative_word(uint cell) {
     return (cell + 1u) * ABUFFER_BOUNDS_STRIDE - 1u;
 }
 
-// The first link of a cell's conservative list.
+// Returns the first link of a cell's conservative list.
 uint abuffer_conservative_head(AbufferRef s, uint cell) {
     return ABUFFER_HAS_CONSERVATIVE && cell < abuffer_cell_count(s) ? ABUFFER_POOL(s, bounds)[abuffer_conservative_word(cell)]
         : 0u;

@@ -13,7 +13,7 @@ void abuffer_exchange(AbufferRef s, uint left, uint right) {
         ABUFFER_POOL(s, nodes)[left_word + word] = ABUFFER_POOL(s, nodes)[right_word + word];
         ABUFFER_POOL(s, nodes)[right_word + word] = value;
     }
-    // Contiguous nodes name their payload, those of pages share its number.
+    // Contiguous nodes refer to their payload, nodes of pages share its number.
     if (ABUFFER_PAGED && ABUFFER_INLINE == 0u) {
         for (uint word = 0u; word < ABUFFER_DATA_STRIDE; word++) {
             uint value = abuffer_data(s, left, word);

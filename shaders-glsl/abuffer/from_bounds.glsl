@@ -14,14 +14,14 @@ void abuffer_from_bounds(AbufferRef s, vec3 lower, vec3 upper) {
     vec3 first = lower - eye;
     vec3 last = upper - eye;
     float reach = box_reach(first, last);
-    // The subtraction above rounds, and so does the one of the passes.
+    // The subtraction above rounds, and so does that of the passes.
     float rounding = ABUFFER_ROUNDING * (reach + largest_axis(abs(eye)));
     float triangle_rounding = ABUFFER_HEADER(s).rounding_per_reach * reach;
-    // Planes and depths represent all that is in their cell, so rays hit them up to a cell beyond the geometry. A ray
-    // that ended at the bounds would miss surfaces that lie on them.
+    // Planes and depths represent everything in their cell, so rays hit them up to a cell beyond the
+    // geometry. A ray that ended at the bounds would miss surfaces that lie on them.
     float margin = ABUFFER_CONSERVATIVE ? triangle_rounding : rounding + widest * reach;
-    // Closer to the eye than this a point's cell is lost in rounding. Where nothing may be lost the march needs more, and
-    // what a ray hits outside of the near region is not behind the eye.
+    // Nearer to the eye than this a point's cell is lost in rounding. If nothing may be lost the march needs
+    // more, and a hit of a ray outside the near region is not behind the eye.
     float near = near_per_reach * reach;
     if (ABUFFER_HAS_CONSERVATIVE) {
         near = max(max(near, 2.0 * triangle_rounding), PLACEMENT_SMALLEST);

@@ -14,7 +14,7 @@
 #define PAGE_CAPACITY(s) ABUFFER_HEADER(s).capacity
 #include "ads/pages.glsl"
 
-// Takes a slot for a fragment of a list; 0 where its page does not exist.
+// Takes a slot for a fragment of a list; 0 if its page does not exist.
 uint abuffer_page_allocate(AbufferRef s, uint list) {
     atomicAdd(ABUFFER_HEADER(s).fragments, 1u);
     uint slot = page_take_slot(s, list);

@@ -13,13 +13,13 @@
 #include "abuffer/search.glsl"
 #include "abuffer/traversal.glsl"
 
-// Lists of triangles.
+// Lists of triangles to test.
 #define ABUFFER_LISTED_NEAR 0u
 #define ABUFFER_LISTED_CONSERVATIVE 1u
 #define ABUFFER_LISTED_ALL 2u
 
-// Tests those of the conservative list of the cell that is searched, as far as their depths overlap the ray's
-// there, or those from the traversal's place on. Returns true if the work budget ended before.
+// Tests the triangles in the conservative list of the current cell whose depths overlap the ray's there, or
+// the triangles of another list from the traversal's place on. Returns true if the work budget ended before.
 bool abuffer_test_listed(AbufferRef s, Ray ray, uint source, inout AbufferTraversal traversal,
     inout AbufferSearch search,
     inout TraceState state, inout uint work) {
@@ -32,8 +32,8 @@ bool abuffer_test_listed(AbufferRef s, Ray ray, uint source, inout AbufferTraver
         count = source == ABUFFER_LISTED_ALL ? geometry_triangle_count()
             : min(ABUFFER_HEADER(s).near_demand, ABUFFER_HEADER(s).near_capacity);
     }
-    // Triangles of a conservative list count wherever they are hit, and so do all triangles where nothing else is
-    // tested.
+    // Triangles of a conservative list count wherever they are hit, and so do all triangles if nothing else
+    // is tested.
     bool anywhere = in_conservative || ABUFFER_CONSERVATIVE;
     float t_low = anywhere ? -ABUFFER_INFINITY : traversal.segment.t_begin - traversal.segment.t_error;
     float t_high = anywhere ? ABUFFER_INFINITY : traversal.segment.t_end + traversal.segment.t_error;

@@ -9,7 +9,7 @@
 #include "ads/constants.glsl"
 #include "abuffer/list_pages.glsl"
 
-// Running index of the list of a cell's bucket. Storages without buckets have one bucket.
+// Returns the running index of the list of a cell's bucket. Storages without buckets have one bucket.
 uint abuffer_list(uint cell, uint bucket) {
     return cell * ABUFFER_BUCKETS + bucket;
 }
@@ -18,18 +18,18 @@ uint abuffer_list_count(AbufferRef s) {
     return abuffer_cell_count(s) * ABUFFER_BUCKETS;
 }
 
-// Words of the scratch pool that the scan takes.
+// Returns the number of words of the scratch pool that the scan takes.
 uint abuffer_scan_words(AbufferRef s) {
     return ABUFFER_CONTIGUOUS ? (abuffer_list_count(s) + SCAN_BLOCK - 1u) / SCAN_BLOCK : 0u;
 }
 
-// Word of a linked list's head; a tail is the next word.
+// Returns the word of a linked list's head; a tail is the next word.
 uint abuffer_head_word(uint list) {
     return ABUFFER_DOUBLY ? 2u * list : list;
 }
 
-// Links of the first and the last node of a contiguous list, zeros where it is empty. Nodes past the end of the pool
-// are counted and left out.
+// Returns the links of the first and the last node of a contiguous list, zeros if it is empty. Nodes past the
+// end of the pool are counted and left out.
 uvec2 abuffer_ends(AbufferRef s, uint list) {
     uint first = ABUFFER_POOL(s, lists)[list];
     uint count = ABUFFER_POOL(s, lists)[abuffer_list_count(s) + list];
@@ -44,7 +44,7 @@ uvec2 abuffer_ends(AbufferRef s, uint list) {
     return uvec2(first + 1u, first + count);
 }
 
-// Adds one to the length of a contiguous list, ahead of the scan that turns lengths into places.
+// Adds one to the length of a contiguous list, before the scan that turns lengths into places.
 void abuffer_count_one(AbufferRef s, uint list) {
     atomicAdd(ABUFFER_POOL(s, lists)[list], 1u);
 }
@@ -70,9 +70,9 @@ uint abuffer_allocate(AbufferRef s, uint list) {
     return node < ABUFFER_HEADER(s).capacity ? node + 1u : 0u;
 }
 
-// Puts a node with its depth into its list. Linked: in front. Nodes start out zeroed, so `prev` of the newest
-// is 0. The only writer of the old head's `prev` is the thread that replaced it, and the only writer of the
-// tail is the thread that found the list empty.
+// Puts a node with its depth into its list; in a linked list, at the front. Nodes start out zeroed, so `prev`
+// of the newest is 0. The only writer of the old head's `prev` is the thread that replaced it, and the only
+// writer of the tail is the thread that found the list empty.
 void abuffer_push(AbufferRef s, uint list, uint link, float z) {
     abuffer_set_z(s, link, z);
     if (ABUFFER_CONTIGUOUS || ABUFFER_PAGED) {
@@ -91,7 +91,7 @@ void abuffer_push(AbufferRef s, uint list, uint link, float z) {
     }
 }
 
-// A list that is being read.
+// Cursor of a list that is being read.
 struct AbufferCursor {
     uint link;            // the next node; 0 at the end
     uint last;            // the node that ends the list, contiguous only
@@ -111,7 +111,7 @@ AbufferCursor abuffer_list_begin(AbufferRef s, uint list, bool backward) {
     return AbufferCursor(ABUFFER_POOL(s, lists)[backward ? word + 1u : word], 0u, backward);
 }
 
-// A list that has been read up to `link`.
+// Resumes a list that has been read up to `link`.
 AbufferCursor abuffer_list_resume(AbufferRef s, uint list, bool backward, uint link) {
     AbufferCursor cursor = AbufferCursor(link, 0u, backward);
     if (ABUFFER_CONTIGUOUS) {
@@ -120,7 +120,7 @@ AbufferCursor abuffer_list_resume(AbufferRef s, uint list, bool backward, uint l
     return cursor;
 }
 
-// True if a link points to a node that was stored; one that does not is counted.
+// True if a link refers to a node that was stored; a link that does not is counted.
 bool abuffer_is_stored(AbufferRef s, uint link) {
     if (link - 1u < abuffer_stored(s)) {
         return true;
@@ -129,7 +129,8 @@ bool abuffer_is_stored(AbufferRef s, uint link) {
     return false;
 }
 
-// The next node of a list that has not ended. A link past the end is counted, ends the list and gives 0.
+// Returns the next node of a list that has not ended. A link past the end is counted, ends the list and gives
+// 0.
 uint abuffer_list_next(AbufferRef s, inout AbufferCursor cursor) {
     uint link = cursor.link;
     if (!abuffer_is_stored(s, link)) {
@@ -146,7 +147,7 @@ uint abuffer_list_next(AbufferRef s, inout AbufferCursor cursor) {
     return link;
 }
 
-// Skips what follows a node in its order: the rest of the list, or of the page, where only pages are sorted.
+// Skips the nodes after a node in its order: the rest of the list, or of the page if only pages are sorted.
 void abuffer_list_skip(AbufferRef s, uint link, inout AbufferCursor cursor) {
     cursor.link = ABUFFER_PAGED ? page_link_of_next(s, link) : 0u;
 }

@@ -8,7 +8,7 @@
 
 #include "abuffer/accessors.glsl"
 
-// Nodes that were stored; of pages all slots.
+// Returns the number of nodes that were stored; for pages the number of all slots.
 uint abuffer_stored(AbufferRef s) {
     return min(ABUFFER_HEADER(s).capacity, ABUFFER_HEADER(s).demand) * ABUFFER_PAGE_SLOTS;
 }
@@ -19,7 +19,7 @@ uint abuffer_node_word(uint link) {
         + slot % ABUFFER_PAGE_SLOTS * ABUFFER_NODE_STRIDE;
 }
 
-// Depth at the cell's centre, metres.
+// Returns the depth at the cell's centre, metres.
 float abuffer_z(AbufferRef s, uint link) {
     return uintBitsToFloat(ABUFFER_POOL(s, nodes)[abuffer_node_word(link)]);
 }
@@ -28,7 +28,7 @@ void abuffer_set_z(AbufferRef s, uint link, float z) {
     ABUFFER_POOL(s, nodes)[abuffer_node_word(link)] = floatBitsToUint(z);
 }
 
-// The link away from the eye, of linked nodes.
+// Returns the link away from the eye, of linked nodes.
 uint abuffer_next(AbufferRef s, uint link) {
     return ABUFFER_POOL(s, nodes)[abuffer_node_word(link) + ABUFFER_LINK_WORD];
 }
@@ -37,7 +37,7 @@ void abuffer_set_next(AbufferRef s, uint link, uint next) {
     ABUFFER_POOL(s, nodes)[abuffer_node_word(link) + ABUFFER_LINK_WORD] = next;
 }
 
-// The link towards the eye; of nodes that link both ways.
+// Returns the link towards the eye, of nodes that link both ways.
 uint abuffer_prev(AbufferRef s, uint link) {
     return ABUFFER_POOL(s, nodes)[abuffer_node_word(link) + ABUFFER_LINK_WORD + 1u];
 }
@@ -46,7 +46,8 @@ void abuffer_set_prev(AbufferRef s, uint link, uint prev) {
     ABUFFER_POOL(s, nodes)[abuffer_node_word(link) + ABUFFER_LINK_WORD + 1u] = prev;
 }
 
-// A word of a fragment's payload. A contiguous node whose payload is past the end is counted and gives 0.
+// Returns a word of a fragment's payload. A contiguous node whose payload is past the end is counted and
+// gives 0.
 uint abuffer_data(AbufferRef s, uint link, uint word) {
     if (ABUFFER_INLINE != 0u) {
         return ABUFFER_POOL(s, nodes)[abuffer_node_word(link) + 1u + word];
@@ -74,7 +75,7 @@ void abuffer_set_data(AbufferRef s, uint link, uint word, uint value) {
     ABUFFER_POOL(s, data)[(link - 1u) * ABUFFER_DATA_STRIDE + word] = value;
 }
 
-// The words of a fragment's payload; zeros behind its last.
+// Returns the words of a fragment's payload; zeros after its last word.
 uvec4 abuffer_payload(AbufferRef s, uint link) {
     uvec4 words = uvec4(0u);
     for (uint word = 0u; word < ABUFFER_PAYLOAD_WORDS; word++) {
@@ -83,9 +84,9 @@ uvec4 abuffer_payload(AbufferRef s, uint link) {
     return words;
 }
 
-// True if a fragment's payload has the lower words, the first that differ: nearly always the first of all, so
-// that a loop that ends there costs less than one that is unrolled. Not for sorts, whose steps leave no budget
-// for iterations in addition to their own.
+// True if the left fragment's payload has the lower words, by the first that differ. These are nearly always
+// the first of all, so that a loop that ends there costs less than an unrolled one. Sorts cannot use it:
+// their steps leave no budget for further iterations.
 bool abuffer_payload_is_lower(AbufferRef s, uint left, uint right) {
     bool lower = false;
     bool equal = true;
@@ -98,7 +99,8 @@ bool abuffer_payload_is_lower(AbufferRef s, uint left, uint right) {
     return lower;
 }
 
-// The order of sorted lists: by depth, ties by the first word of payload. Hits do not depend on how ties are ordered.
+// True if the left node comes first in sorted lists: by depth, ties by the first word of payload. Hits do not
+// depend on the order of ties.
 bool abuffer_comes_first(AbufferRef s, uint left, uint right) {
     float left_z = abuffer_z(s, left);
     float right_z = abuffer_z(s, right);

@@ -16,11 +16,12 @@ void abuffer_pyramid_write(AbufferRef s, uint word, uvec2 words) {
     ABUFFER_POOL(s, bounds)[word + 1u] = words.y;
 }
 
-// Triangles of a conservative list whose depths are evaluated; a cell with more is never skipped.
+// Largest number of triangles of a conservative list whose depths are evaluated; a cell with more is never
+// skipped.
 #define ABUFFER_PYRAMID_CONSERVATIVE 1024u
 
-// The depths that the triangles of a cell's conservative list have in it. Without buckets, which lie between the bounds
-// of fragments, those of the cell include them.
+// Returns the depths that the triangles of a cell's conservative list have in the cell. Without buckets,
+// which lie between the bounds of fragments, the cell's depths include them.
 uvec2 abuffer_pyramid_conservative(AbufferRef s, uint cell) {
     uvec2 words = uvec2(0u);
     uint link = ABUFFER_BUCKETED ? abuffer_conservative_head(s, cell) : 0u;
@@ -39,7 +40,8 @@ uvec2 abuffer_pyramid_conservative(AbufferRef s, uint cell) {
     return words;
 }
 
-// The depths of rays at which a fragment of the cell may be accepted: those of its fragments, and as far as they reach.
+// Returns the depths of rays at which a fragment of the cell may be accepted: the depths of its fragments,
+// widened by their reach.
 uvec2 abuffer_pyramid_fragments(AbufferRef s, uint view, ivec2 cell) {
     AbufferBounds bounds = abuffer_bounds(s, abuffer_cell(s, view, cell));
     if (bounds.empty) {
@@ -52,7 +54,7 @@ uvec2 abuffer_pyramid_fragments(AbufferRef s, uint view, ivec2 cell) {
     return uvec2(~floatBitsToUint(lower), floatBitsToUint(bounds.z_max + reach));
 }
 
-// The depths of rays at which anything in the cell may be accepted.
+// Returns the depths of rays at which anything in the cell may be accepted.
 uvec2 abuffer_pyramid_cell(AbufferRef s, uint view, ivec2 cell) {
     return max(abuffer_pyramid_fragments(s, view, cell), abuffer_pyramid_conservative(s, abuffer_cell(s, view, cell)));
 }

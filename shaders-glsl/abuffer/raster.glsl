@@ -6,12 +6,12 @@
 
 #include "abuffer/covered.glsl"
 
-// The cell of a fragment invocation: the viewport has a border of one.
+// Returns the cell of a fragment invocation: the viewport has a border of one.
 ivec2 abuffer_place(vec4 frag_coord) {
     return ivec2(frag_coord.xy) - 1;
 }
 
-// Cell and coverage of a fragment invocation; false where the triangle does not cover it.
+// Finds cell and coverage of a fragment invocation; false if the triangle does not cover the cell.
 bool abuffer_fragment(uint primitive, uint view, vec4 frag_coord, out uint cell, out CellCoverage coverage) {
     uint resolution = abuffer_resolution(build.structure, view);
     ivec2 place = abuffer_place(frag_coord);

@@ -16,7 +16,7 @@
 
 #define ABUFFER_INFINITY uintBitsToFloat(0x7F800000u)
 
-// One search, able to stop between two nodes.
+// Search of a cell, which can stop between two nodes.
 struct AbufferSearch {
     uint view;
     ivec2 place;          // column and row in the view
@@ -31,7 +31,8 @@ struct AbufferSearch {
     bool in_conservative;       // the conservative list has been begun
 };
 
-// True if the depths that a fragment represents overlap those of the ray: [low, high] is the interval searched.
+// True if the depths that a fragment represents overlap those of the ray: [low, high] is the interval
+// searched.
 bool abuffer_intersects(AbufferRef s, AbufferSearch search, uint primitive, float z, float low, float high) {
     if (ABUFFER_TEST != ABUFFER_TEST_DEPTHS) {
         return z >= low && z <= high;
@@ -60,7 +61,7 @@ bool abuffer_search(AbufferRef s, Ray ray, float origin_z, float direction_z, bo
     PlaneCell plane_cell = PlaneCell(ABUFFER_HEADER(s).eye, abuffer_cell_slope(s, search.view), 0.0, ABUFFER_PLANE_REACH,
         false);
     bool away = direction_z >= 0.0;
-    // Depths at the cell's centre that an accepted fragment can have.
+    // Low and high are the depths at the cell's centre that an accepted fragment can have.
     float low = near_z;
     float high = far_z;
     if (ABUFFER_HAS_EXTENT) {
@@ -116,7 +117,8 @@ bool abuffer_search(AbufferRef s, Ray ray, float origin_z, float direction_z, bo
             trace_log_visit(STEP_ENTRY, current, 0u, 0u, z, z);
             if (end_early && (backward ? z < low : z > high)) {
                 trace_log(STEP_SKIP, SKIP_PAST, 0u, 0u, low, high);
-                // Read from the far side to the near one, buckets that follow hold smaller depths.
+                // If lists are read from the far side to the near one, the following buckets hold smaller
+                // depths.
                 if (backward == !away && !ABUFFER_PAGED) {
                     return false;
                 }

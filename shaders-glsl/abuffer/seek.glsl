@@ -9,7 +9,7 @@
 #include "contract/trace_state.glsl"
 #include "abuffer/lists.glsl"
 
-// Depth of a node, read as an entry of its list.
+// Returns the depth of a node, counted and logged as an entry of its list.
 float abuffer_probe(AbufferRef s, uint link, inout TraceState state, inout uint work) {
     work++;
     state.entries++;
@@ -18,8 +18,8 @@ float abuffer_probe(AbufferRef s, uint link, inout TraceState state, inout uint 
     return z;
 }
 
-// The first node of a contiguous list, read forward, with z >= low, or the last one, read backward, with z <= high;
-// 0 where there is none. At most 32 steps.
+// Finds the first node of a contiguous list, read forward, with z >= low, or the last one, read backward,
+// with z <= high; 0 if there is none. At most 32 steps.
 uint abuffer_halve(AbufferRef s, AbufferCursor cursor, float low, float high, inout TraceState state, inout uint work) {
     uint first = min(cursor.link, cursor.last);
     uint end = max(cursor.link, cursor.last) + 1u;
@@ -43,7 +43,7 @@ uint abuffer_halve(AbufferRef s, AbufferCursor cursor, float low, float high, in
 // Moves the begin of a sorted list. Only nodes outside [low, high] are skipped.
 void abuffer_seek(AbufferRef s, uint list, float low, float high, inout AbufferCursor cursor, inout TraceState state,
     inout uint work) {
-    // Where there are buckets, the cell's bounds were tested before.
+    // With buckets, the cell's bounds were tested before.
     if (cursor.link == 0u || ABUFFER_BUCKETED || !ABUFFER_HAS_FAR_END) {
         return;
     }

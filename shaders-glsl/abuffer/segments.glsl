@@ -9,13 +9,14 @@
 #include "ads/march_cube.glsl"
 #include "abuffer/views.glsl"
 
-// The camera's segments before and behind the near region, the near region where no face cuts it out, and the faces.
+// Stages of a ray: the camera's segments before and behind the near region, the near region if no face cuts
+// it out, and the faces.
 #define ABUFFER_STAGE_BEFORE 0u
 #define ABUFFER_STAGE_BEHIND 1u
 #define ABUFFER_STAGE_NEAR 2u
 #define ABUFFER_STAGE_FACES 3u
 
-// In place of the number of a view: whichever face the segment begins in.
+// Value in place of the number of a view: the face in which the segment begins.
 #define ABUFFER_IN_FACES 8u
 
 #define ABUFFER_SEGMENT_LIMIT (SEGMENT_LIMIT + ABUFFER_STAGE_FACES)
@@ -30,13 +31,13 @@ AbufferProgress abuffer_progress_begin(vec2 clip) {
     return AbufferProgress(ABUFFER_HAS_CAMERA ? ABUFFER_STAGE_BEFORE : ABUFFER_STAGE_FACES, clip.x);
 }
 
-// The part of `clip` in which the ray lies in a view's pyramid; empty if x > y. `wider`: by how many cells the pyramid
-// is taken wider than it is, half of them on each side.
+// Returns the part of `clip` in which the ray lies in a view's pyramid; empty if x > y. `wider` is the number
+// of cells by which the pyramid is widened, half of them on each side.
 vec2 abuffer_pyramid_interval(AbufferRef s, uint view, vec3 origin, vec3 direction, vec2 clip, int wider) {
     vec3 o = abuffer_view_from_world(s, origin, view);
     vec3 d = abuffer_view_from_world(s, direction, view);
     vec2 interval = clip;
-    // x/z and y/z at the pyramid's sides.
+    // The sides of the pyramid are given in x/z and y/z.
     uint resolution = abuffer_resolution(s, view);
     ivec2 cells = view == ABUFFER_CAMERA ? abuffer_camera_cells(s) : ivec2(resolution);
     vec2 ends = vec2(cells + wider) / float(resolution);
@@ -56,7 +57,7 @@ vec2 abuffer_pyramid_interval(AbufferRef s, uint view, vec3 origin, vec3 directi
     return interval;
 }
 
-// The segment of a stage before the faces; empty if x > y.
+// Returns the segment of a stage before the faces; empty if x > y.
 vec2 abuffer_stage_interval(AbufferRef s, vec3 origin, vec3 direction, vec2 near, vec2 clip, uint stage) {
     bool has_near = near.x <= near.y;
     if (stage == ABUFFER_STAGE_NEAR) {
@@ -72,7 +73,7 @@ vec2 abuffer_stage_interval(AbufferRef s, vec3 origin, vec3 direction, vec2 near
     return interval;
 }
 
-// The view in which a ray goes on at t, or SEGMENT_NEAR; ABUFFER_IN_FACES where there is none.
+// Returns the view in which a ray goes on at t, or SEGMENT_NEAR; ABUFFER_IN_FACES if there is none.
 uint abuffer_view_at(AbufferRef s, vec3 origin, vec3 direction, vec2 near, float t, uint stage) {
     if (near.x <= t && t < near.y) {
         return SEGMENT_NEAR;
@@ -86,8 +87,8 @@ uint abuffer_view_at(AbufferRef s, vec3 origin, vec3 direction, vec2 near, float
     return ABUFFER_HAS_CUBE ? face_of(origin + t * direction) : ABUFFER_IN_FACES;
 }
 
-// Point at which a ray goes on that has been followed through a view up to `end`: half a cell outside of the view, or
-// where the near region begins before that.
+// Returns the t at which a ray goes on that has been followed through a view up to `end`: half a cell outside
+// the view, or at the near region if that begins before.
 float abuffer_snapped(AbufferRef s, vec3 origin, vec3 direction, vec2 near, vec2 clip, uint view, float end) {
     if (view == SEGMENT_NEAR || !(end < clip.y)) {
         return end;
@@ -97,8 +98,9 @@ float abuffer_snapped(AbufferRef s, vec3 origin, vec3 direction, vec2 near, vec2
     return max(end, near_ahead ? min(outside.y, near.x) : outside.y);
 }
 
-// As abuffer_next_interval, where a ray is searched in one view at a time: the camera's where that sees its start or
-// where it leaves the near region, then the faces that it passes. A view ends half a cell before its side.
+// Finds the next segment as abuffer_next_interval, but searches a ray in one view at a time: the camera's if
+// it sees the ray's start or the point where the ray leaves the near region, then the faces that the ray
+// passes. A view ends half a cell before its side.
 bool abuffer_next_snapped_interval(AbufferRef s, vec3 origin, vec3 direction, vec2 near, vec2 clip, float best,
     inout AbufferProgress progress, out vec2 ends, out uint view) {
     for (uint segments = 0u; segments < ABUFFER_SEGMENT_LIMIT; segments++) {
@@ -123,8 +125,8 @@ bool abuffer_next_snapped_interval(AbufferRef s, vec3 origin, vec3 direction, ve
     return false;
 }
 
-// The next segment that may hold something nearer than `best`: its ends and its view, or ABUFFER_IN_FACES where the
-// face is still to be found and the segment ends with it; false where none is left.
+// Finds the next segment that may hold something nearer than `best`: its ends and its view, or
+// ABUFFER_IN_FACES if the face is still to be found and the segment ends with it; false if none is left.
 bool abuffer_next_interval(AbufferRef s, vec3 origin, vec3 direction, vec2 near, vec2 clip, float best,
     inout AbufferProgress progress, out vec2 ends, out uint view) {
     if (ABUFFER_SNAPS) {
@@ -148,7 +150,7 @@ bool abuffer_next_interval(AbufferRef s, vec3 origin, vec3 direction, vec2 near,
     return true;
 }
 
-// The segment of these ends in that view.
+// Returns the segment with these ends in that view.
 Segment abuffer_segment(vec3 origin, vec3 direction, vec2 near, vec2 ends, uint view, inout AbufferProgress progress) {
     Segment segment = segment_at(origin, direction, ends.x, ends.y, near);
     if (view == ABUFFER_IN_FACES) {

@@ -11,7 +11,8 @@
 #include "abuffer/pyramid.glsl"
 #include "abuffer/traversal.glsl"
 
-// The depths of a ray over [t_low, t_high], with more than the rounding that a search allows for.
+// Returns the depths of a ray over [t_low, t_high], widened by more than the rounding that a search allows
+// for.
 vec2 abuffer_skip_depths(float origin_z, float direction_z, float t_low, float t_high) {
     vec2 z = origin_z + vec2(t_low, t_high) * direction_z;
     float rounding = 9.6e-7 * (abs(origin_z) + max(abs(t_low), abs(t_high)) * abs(direction_z));
@@ -19,9 +20,9 @@ vec2 abuffer_skip_depths(float origin_z, float direction_z, float t_low, float t
     return vec2(min(z.x, z.y) - rounding, max(max(z.x, z.y) + rounding, 0.0));
 }
 
-// Skips the cell that a traversal is at, and all in the largest block around it that it may. False where
-// the cell must be searched; else `more` says whether the traversal goes on. Each level that is tested is a
-// unit of work; a view has at most 14.
+// Skips the cell that a traversal is at, and all cells in the largest block around it that may be skipped.
+// False if the cell must be searched; otherwise `more` tells whether the traversal goes on. Each level that
+// is tested is a unit of work; a view has at most 14.
 bool abuffer_skip(AbufferRef s, inout AbufferTraversal traversal, AbufferSearch search, float best, inout uint work,
     out bool more) {
     more = true;
@@ -43,7 +44,8 @@ bool abuffer_skip(AbufferRef s, inout AbufferTraversal traversal, AbufferSearch 
         if ((over.step_x || over.step_y) && over.t_out > best) {
             break;
         }
-        // Intervals in cells are widened by the errors of their ends, of which only the block's are known here.
+        // Intervals in cells are widened by the errors of their ends, of which only those of the block are
+        // known here.
         float widening = 1.6e-5 * (max(abs(traversal.cells.t_in), abs(over.t_out)) + reach) + over.error_out
             + traversal.cells.error_in;
         vec2 depths = abuffer_skip_depths(traversal.origin.z, traversal.direction.z, traversal.cells.t_in - widening,
@@ -75,7 +77,7 @@ bool abuffer_skip(AbufferRef s, inout AbufferTraversal traversal, AbufferSearch 
             return true;
         }
     }
-    // On to the next cell, as without skipping.
+    // The traversal goes on to the next cell, as without skipping.
     if (!(traversal.cells.t_out + traversal.cells.error_out <= skip.t_out + slack)) {
         return false;
     }

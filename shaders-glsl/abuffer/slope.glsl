@@ -20,7 +20,8 @@ vec2 abuffer_slope_depths(AbufferRef s, uint view, ivec2 cell, uint primitive, f
     vec3 normal = cross(b - a, c - a);
     float facing = abs(dot(normal, direction));
     float swing = (abs(normal.x) + abs(normal.y)) / float(resolution);
-    // Seen edge-on, the plane takes all depths within the cell; then those of the triangle itself limit them.
+    // Seen edge-on, the plane takes all depths within the cell, and the depths of the triangle itself limit
+    // them.
     float reach = facing > 0.0 ? z * swing / facing : uintBitsToFloat(0x7F800000u);
     float lower = max(z - reach, min(a.z, min(b.z, c.z)));
     float upper = min(z + reach, max(a.z, max(b.z, c.z)));

@@ -11,9 +11,9 @@
 #include "ads/build_constants.glsl"
 
 #define SORT_HEADER(s) ABUFFER_HEADER(s)
-// Behind the sums of the scan.
+// Table of long lists, behind the sums of the scan.
 #define SORT_WORD(s, place) ABUFFER_POOL(s, scratch)[abuffer_scan_words(s) + (place)]
-// To exchange two nodes takes a loop over their words.
+// The limit is that of nodes, because exchanging two nodes takes a loop over their words.
 #define SORT_LIMIT NODE_SORT_LIMIT
 #define SORT_LONG_LIMIT NODE_SORT_LONG_LIMIT
 #define SORT_LINKED (!ABUFFER_CONTIGUOUS)
@@ -23,7 +23,8 @@ bool sort_is_possible(AbufferRef s) { return ABUFFER_HEADER(s).demand <= ABUFFER
 
 uint sort_list_count(AbufferRef s) { return abuffer_list_count(s); }
 
-// The list that is being sorted: the functions of the shared sort know elements by their number.
+// Structure of the list that is being sorted, since the functions of the shared sort know elements by their
+// number.
 AbufferRef sorted_structure;
 uint sorted_from;
 

@@ -9,8 +9,8 @@
 
 #include "ads/back_face.glsl"
 
-// Plane of a triangle around a point of it. The distance is that of this point, so that errors of the normal count over the
-// cell alone, not over the triangle.
+// Packs the plane of a triangle around a point on it. The distance is that of this point, so that errors of
+// the normal count over the cell only, not over the triangle.
 uvec4 abuffer_pack_plane(uint primitive, vec2 barycentrics, vec3 eye) {
     vec3 a;
     vec3 b;
@@ -19,7 +19,7 @@ uvec4 abuffer_pack_plane(uint primitive, vec2 barycentrics, vec3 eye) {
     precise vec3 ab = b - a;
     precise vec3 ac = c - a;
     precise vec3 normal = vec3(ab.y * ac.z - ab.z * ac.y, ab.z * ac.x - ab.x * ac.z, ab.x * ac.y - ab.y * ac.x);
-    // Scaled first: squares of small areas vanish.
+    // The normal is scaled first, because squares of small areas vanish.
     float largest = max(abs(normal.x), max(abs(normal.y), abs(normal.z)));
     precise vec3 scaled = largest > 0.0 ? normal / largest : vec3(0.0);
     precise float squared = scaled.x * scaled.x + scaled.y * scaled.y + scaled.z * scaled.z;
@@ -37,19 +37,19 @@ bool abuffer_plane_is_single_sided(vec3 normal) {
     return dot(normal, normal) > 2.0;
 }
 
-// The unit normal of a stored plane.
+// Returns the unit normal of a stored plane.
 vec3 abuffer_plane_normal(uvec4 words) {
     vec3 normal = uintBitsToFloat(words.xyz);
     return abuffer_plane_is_single_sided(normal) ? 0.5 * normal : normal;
 }
 
-// True if a ray passes a stored plane because it meets its back.
+// True if a ray passes a stored plane because it meets the back of the plane.
 bool abuffer_plane_is_passed(uvec4 words, Ray ray) {
     vec3 normal = uintBitsToFloat(words.xyz);
     return ray_culls_back_faces(ray) && abuffer_plane_is_single_sided(normal) && dot(normal, ray.direction) > 0.0;
 }
 
-// Intersection of a ray with a plane; `origin` relative to the eye. False where it runs along the plane.
+// Intersects a ray with a plane; `origin` is relative to the eye. False if the ray runs along the plane.
 bool abuffer_intersects_plane(uvec4 words, vec3 origin, vec3 direction, out float t) {
     vec3 normal = uintBitsToFloat(words.xyz);
     precise float speed = dot(normal, direction);

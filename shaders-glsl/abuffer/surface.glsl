@@ -9,7 +9,7 @@
 #include "abuffer/attributes.glsl"
 #include "abuffer/stored_plane.glsl"
 
-// The size of a cell at a point: what the A-buffer cannot tell apart, metres.
+// Returns the size of a cell at a point, metres: details below it are lost in the A-buffer.
 float abuffer_footprint(AbufferRef s, vec3 position) {
     vec3 p = abs(position - ABUFFER_HEADER(s).eye);
     float cube = ABUFFER_HAS_CUBE ? abuffer_cell_slope(s, 0u) : 0.0;

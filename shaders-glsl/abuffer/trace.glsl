@@ -17,7 +17,7 @@ uint abuffer_trace(AbufferRef s, Ray ray, inout TraceState state, bool any_hit) 
     precise vec3 origin = ray.origin - abuffer_eye(s);
     vec3 direction = ray.direction;
     vec2 near = near_region_interval(origin, direction, ABUFFER_HEADER(s).near_size);
-    // Where triangles are tested a hit counts by its t alone, wherever rounding has moved it.
+    // If triangles are tested, a hit counts by its t alone, wherever rounding has moved it.
     float reach = ABUFFER_HEADER(s).reach;
     float slack = ABUFFER_CONSERVATIVE ? hit_slack(origin, direction, reach) : 0.0;
     bool distant = ABUFFER_CONSERVATIVE && largest_coordinate(origin) > ORIGIN_LIMIT * reach;
@@ -71,7 +71,7 @@ uint abuffer_trace(AbufferRef s, Ray ray, inout TraceState state, bool any_hit) 
                 state.cells++;
                 trace_log_visit(STEP_CELL, traversal.segment.face, uint(traversal.searched.x), uint(traversal.searched.y),
                     search.t_low, search.t_high);
-                // A search that was begun goes on: only cells whose search has not begun are skipped.
+                // A search in progress goes on: only cells whose search has not begun are skipped.
                 if (ABUFFER_STEP == ABUFFER_STEP_SKIPS && !searching
                     && abuffer_skip(s, traversal, search, state.best.t + slack, work, more)) {
                     continue;

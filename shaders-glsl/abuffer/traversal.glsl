@@ -21,7 +21,7 @@
 #define ABUFFER_CURSOR_BUCKET 16, 5
 #define ABUFFER_CURSOR_STAGE 21, 2
 
-// A ray within one view or the near region.
+// Traversal of a ray within one view or the near region.
 struct AbufferTraversal {
     Segment segment;
     AbufferProgress progress;
@@ -35,13 +35,13 @@ struct AbufferTraversal {
     ivec2 searched;       // the cell being searched
 };
 
-// The traversal is at the cell of its march.
+// Moves the traversal to the cell of its march.
 void abuffer_enter_cell(inout AbufferTraversal traversal) {
     traversal.searched = traversal.cells.cell;
     traversal.entered = true;
 }
 
-// Finds the way out of the cell that a traversal is at.
+// Finds the exit of the cell that a traversal is at.
 void abuffer_find_exit(inout AbufferTraversal traversal) {
     if (!ABUFFER_FOLLOWS_CELLS || !traversal.entered) {
         return;
@@ -91,17 +91,17 @@ void abuffer_save(AbufferTraversal traversal, AbufferSearch search, bool searchi
     state.cursor[7] = in_cells ? bits_of_cell(traversal.searched) : traversal.place;
 }
 
-// Restores the segment that a paused ray was in.
+// Restores the segment in which a paused ray was.
 void abuffer_restore_progress(TraceState state, vec2 clip, out AbufferProgress progress, out vec2 ends, out uint view) {
     uint flags = state.cursor[0];
     view = bits_get(flags, ABUFFER_CURSOR_VIEW);
     ends = vec2(uintBitsToFloat(state.cursor[1]), uintBitsToFloat(state.cursor[2]));
-    // Before the faces, none of them has been traversed.
+    // Before the faces, none of the faces has been traversed.
     bool in_faces = view != ABUFFER_CAMERA && ABUFFER_HAS_CUBE;
     progress = AbufferProgress(bits_get(flags, ABUFFER_CURSOR_STAGE), in_faces ? ends.y : clip.x);
 }
 
-// Place of the ray in that segment, whose traversal has been begun.
+// Restores the place of the ray in that segment, whose traversal has begun.
 void abuffer_restore(TraceState state, inout AbufferTraversal traversal, out AbufferSearch search) {
     uint flags = state.cursor[0];
     traversal.place = state.cursor[7];
@@ -120,7 +120,7 @@ void abuffer_restore(TraceState state, inout AbufferTraversal traversal, out Abu
     search.link = state.cursor[6];
 }
 
-// Prepares the search of the cell the traversal is at; `begun` where it goes on.
+// Prepares the search of the cell that the traversal is at; `begun` if the search goes on.
 void abuffer_begin_search(AbufferRef s, bool begun, inout AbufferTraversal traversal, inout AbufferSearch search) {
     if (!begun) {
         search.in_bucket = false;

@@ -6,7 +6,7 @@
 #include "ads/geometry.glsl"
 #include "abuffer/views.glsl"
 
-// Takes the corners of a triangle into a view.
+// Transforms the corners of a triangle into a view.
 void abuffer_view_corners(AbufferRef s, uint view, inout vec3 a, inout vec3 b, inout vec3 c) {
     vec3 eye = abuffer_eye(s);
     a = abuffer_view_from_world(s, a - eye, view);
@@ -23,7 +23,8 @@ float abuffer_near_size(AbufferRef s) {
     return ABUFFER_HEADER(s).near_size;
 }
 
-// Largest shift of a triangle in a view by rounding, in x/z: cells keep triangles up to that far beyond their sides.
+// Returns the largest shift of a triangle in a view by rounding, in x/z: cells keep triangles up to that
+// distance beyond their sides.
 float abuffer_conservative_margin(AbufferRef s, vec3 a, vec3 b, vec3 c) {
     float nearest = max(min(a.z, min(b.z, c.z)), ABUFFER_HEADER(s).near_size);
     return ABUFFER_HEADER(s).rounding / max(nearest, 1.0e-30) + 1.0e-6;

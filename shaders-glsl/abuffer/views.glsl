@@ -8,25 +8,26 @@
 #include "abuffer/header.glsl"
 #include "ads/views.glsl"
 
-// Columns and rows of the camera's view, border not counted, both even or both odd.
+// Returns columns and rows of the camera's view without the border, both even or both odd.
 ivec2 abuffer_camera_cells(AbufferRef s) {
     uint cells = ABUFFER_HEADER(s).camera_cells;
     return ivec2(cells & 0xFFFFu, cells >> 16);
 }
 
-// Cells along a side of the square around a view, border not counted.
+// Returns the number of cells along a side of the square around a view, without the border.
 uint abuffer_resolution(AbufferRef s, uint view) {
     ivec2 cells = abuffer_camera_cells(s);
     return view == ABUFFER_CAMERA ? uint(max(cells.x, cells.y)) : ABUFFER_HEADER(s).resolution;
 }
 
-// The first cell of the camera's view within its square.
+// Returns the first cell of the camera's view within its square.
 ivec2 abuffer_camera_first(AbufferRef s) {
     ivec2 cells = abuffer_camera_cells(s);
     return (ivec2(max(cells.x, cells.y)) - cells) / 2;
 }
 
-// The cells of a view within its square, border counted: all of a face, the middle ones of the camera.
+// Returns the cells of a view within its square, with the border: all of a face, the middle ones of the
+// camera.
 void abuffer_view_cells(AbufferRef s, uint view, out ivec2 lower, out ivec2 upper) {
     lower = ivec2(-1);
     upper = ivec2(ABUFFER_HEADER(s).resolution);
@@ -36,19 +37,19 @@ void abuffer_view_cells(AbufferRef s, uint view, out ivec2 lower, out ivec2 uppe
     }
 }
 
-// Common centre of the views. A function: with addresses, glslang does not end where precise expressions
-// follow a reference.
+// Returns the common centre of the views. It is a function because, with addresses, glslang does not end if
+// precise expressions follow a reference.
 vec3 abuffer_eye(AbufferRef s) {
     return ABUFFER_HEADER(s).eye;
 }
 
-// A scalar product without contraction: passes and traces must agree.
+// Returns a scalar product without contraction, since passes and traces must agree.
 float abuffer_along(vec3 row, vec3 p) {
     precise float sum = row.x * p.x + row.y * p.y + row.z * p.z;
     return sum;
 }
 
-// A point relative to the eye, or a direction, in a view.
+// Transforms a point relative to the eye, or a direction, into a view.
 vec3 abuffer_view_from_world(AbufferRef s, vec3 p, uint view) {
     if (view != ABUFFER_CAMERA) {
         return face_from_world(p, view);
@@ -57,7 +58,8 @@ vec3 abuffer_view_from_world(AbufferRef s, vec3 p, uint view) {
         abuffer_along(ABUFFER_HEADER(s).camera_z, p));
 }
 
-// Width of a cell per metre of distance from the eye along the largest axis of its view, in the world.
+// Returns the width of a cell per metre of distance from the eye along the largest axis of its view, in the
+// world.
 float abuffer_cell_slope(AbufferRef s, uint view) {
     if (view != ABUFFER_CAMERA) {
         return 2.0 / float(ABUFFER_HEADER(s).resolution);
@@ -67,18 +69,19 @@ float abuffer_cell_slope(AbufferRef s, uint view) {
     return 2.0 / (narrowest * float(abuffer_resolution(s, view)));
 }
 
-// Cells of the cube, which come before those of the camera.
+// Returns the number of cells of the cube, which come before those of the camera.
 uint abuffer_cube_cells(AbufferRef s) {
     return ABUFFER_HAS_CUBE ? VIEW_FACES * face_cells(ABUFFER_HEADER(s).resolution) : 0u;
 }
 
-// Cells of all views.
+// Returns the number of cells of all views.
 uint abuffer_cell_count(AbufferRef s) {
     ivec2 camera = abuffer_camera_cells(s) + 2;
     return abuffer_cube_cells(s) + (ABUFFER_HAS_CAMERA ? uint(camera.x * camera.y) : 0u);
 }
 
-// Running index of a cell of a view over all views; abuffer_cell_count where the view has no such cell.
+// Returns the running index of a cell of a view over all views; abuffer_cell_count if the view has no such
+// cell.
 uint abuffer_cell(AbufferRef s, uint view, ivec2 cell) {
     if (view != ABUFFER_CAMERA) {
         return cell_index(view, cell, ABUFFER_HEADER(s).resolution);

@@ -12,12 +12,12 @@
 #include "abuffer/attributes.glsl"
 #endif
 
-// Distance behind the nearest up to which a fragment counts as part of the same layer, as a share of its depth: a few
-// roundings, by which triangles that touch at a centre differ there. All passes find the same depths, except those of
-// the hardware, which may differ as little.
+// Distance behind the nearest fragment up to which a fragment is part of the same layer, as a share of its
+// depth: a few units of rounding, by which triangles that touch at a centre differ there. All passes find
+// equal depths, except those of the hardware, which may differ by as little.
 #define ABUFFER_LAYER_SHARE 4.8e-7
 
-// True if a triangle is not behind the layer kept of a cell, whether or not a mask cuts it out there.
+// True if a triangle is not behind the kept layer of a cell, whether or not a mask cuts it out there.
 bool abuffer_in_layer(uint cell, CellCoverage coverage) {
     if (ABUFFER_SINGLE_LAYER == 0u) {
         return true;
@@ -30,7 +30,7 @@ bool abuffer_in_layer(uint cell, CellCoverage coverage) {
     return coverage.z <= farthest;
 }
 
-// Stores what a fragment carries.
+// Stores the payload of a fragment.
 void abuffer_store_payload(uint primitive, CellCoverage coverage, uint link) {
     uvec4 words = uvec4(primitive, 0u, 0u, 0u);
 #ifdef PAYLOAD_ATTRIBUTES
@@ -68,7 +68,7 @@ void abuffer_visit_count(uint primitive, uint cell, CellCoverage coverage) {
 
 void abuffer_visit_store(uint primitive, uint cell, CellCoverage coverage) {
     if (!abuffer_in_layer(cell, coverage)) {
-        // Not marked: a triangle that is behind others everywhere is lost.
+        // The triangle is not marked, because a triangle that is behind others everywhere counts as lost.
         return;
     }
     abuffer_mark(build.structure, primitive, 0u);
@@ -80,7 +80,7 @@ void abuffer_visit_store(uint primitive, uint cell, CellCoverage coverage) {
     if (ABUFFER_SINGLE_LAYER != 0u) {
         float z_min;
         if (!abuffer_z_min(build.structure, cell, z_min)) {
-            // The bounds pass found nothing here, so passes disagree.
+            // The bounds pass found nothing in this cell, so passes disagree.
             atomicAdd(ABUFFER_HEADER(build.structure).corrupted, 1u);
             return;
         }
@@ -90,10 +90,10 @@ void abuffer_visit_store(uint primitive, uint cell, CellCoverage coverage) {
     } else if (ABUFFER_BUCKETED) {
         AbufferBounds bounds = abuffer_bounds(build.structure, cell);
         if (ABUFFER_BOUNDS_OF == ABUFFER_BOUNDS_BOXES) {
-            // Boxes say nothing of planes.
+            // Boxes do not tell the extent of planes.
             abuffer_widen_extent(build.structure, cell, coverage.extent);
             if (bounds.empty || z < bounds.z_min || z > bounds.z_max) {
-                // The boxes do not enclose it, so passes disagree.
+                // The boxes do not enclose the fragment, so passes disagree.
                 atomicAdd(ABUFFER_HEADER(build.structure).corrupted, 1u);
                 return;
             }

@@ -9,7 +9,8 @@
 #include "abuffer/visit.glsl"
 #include "abuffer/conservative.glsl"
 
-// True if the plane of a triangle reaches much farther in depth over a cell than the cell is wide. a, b, c in the view.
+// True if the plane of a triangle reaches much farther in depth over a cell than the cell is wide. a, b, c
+// are in the view.
 bool abuffer_is_edge_on(vec3 a, vec3 b, vec3 c, ivec2 place, uint resolution) {
     vec3 normal = cross(b - a, c - a);
     float facing = abs(dot(normal, coverage_center(place, resolution)));
@@ -18,7 +19,7 @@ bool abuffer_is_edge_on(vec3 a, vec3 b, vec3 c, ivec2 place, uint resolution) {
 
 // Stores a triangle with these depths in the conservative list of a cell.
 void abuffer_add_conservative(uint primitive, uint cell, vec2 depths) {
-    // In a set of its own where other invocations read the first set.
+    // The mark is in a set of its own if other invocations read the first set.
     abuffer_mark(build.structure, primitive, abuffer_mark_sets() - 1u);
     if (ABUFFER_HAS_ENDS && !ABUFFER_BUCKETED) {
         abuffer_widen_bounds(build.structure, cell, depths.x, depths.y);

@@ -4,8 +4,8 @@
 #ifndef ADS_APPEND_GLSL
 #define ADS_APPEND_GLSL
 
-// Puts a value at the next place of a list that begins at `first` of `words` and holds `capacity`.
-// A macro, since an atomic needs the counter itself, and a function gets a copy.
+// Puts a value at the next place of a list that begins at `first` of `words` and has room for `capacity`
+// values. It is a macro, since an atomic needs the counter itself, and a function gets a copy.
 #define LIST_APPEND(length, capacity, words, first, value) \
     { \
         uint append_place = atomicAdd(length, 1u); \

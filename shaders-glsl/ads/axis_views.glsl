@@ -12,11 +12,11 @@
 
 #define AXIS_VIEWS 3u
 
-// Largest shift by rounding of the depths of a triangle in a cell of the view that it faces most, in cells, where
-// axis_depth_is_certain.
+// Largest shift by rounding of the depths of a triangle in a cell of the view that it faces most, in cells,
+// if axis_depth_is_certain.
 #define AXIS_DEPTH_SLACK 0.2
 
-// One view. Precise expressions take their values from such a local copy, not from a buffer.
+// View along an axis. Precise expressions take their values from such a local copy, not from a buffer.
 struct AxisView {
     vec3 lower;          // metres: lower corner of the cube, axes of the world
     float cell;          // metres: side of a cell
@@ -24,13 +24,13 @@ struct AxisView {
     uint axis;
 };
 
-// A point in the frame of a view, metres.
+// Transforms a point into the frame of a view, metres.
 vec3 axis_from_world(AxisView view, vec3 p) {
     precise vec3 relative = p - view.lower;
     return triangle_permute(relative, view.axis);
 }
 
-// The axes of the world from those of a view.
+// Permutes the axes of a view back to those of the world.
 vec3 axis_to_world(vec3 p, uint axis) {
     return axis == 0u ? p.zxy : (axis == 1u ? p.yzx : p);
 }
@@ -39,12 +39,12 @@ ivec3 axis_to_world(ivec3 p, uint axis) {
     return axis == 0u ? p.zxy : (axis == 1u ? p.yzx : p);
 }
 
-// Running index of a cell, over all views.
+// Returns the running index of a cell over all views.
 uint axis_cell_index(uint axis, ivec2 cell, uint resolution) {
     return (axis * resolution + uint(cell.y)) * resolution + uint(cell.x);
 }
 
-// The view that a triangle faces most: its normal's largest component, ties to the lowest axis.
+// Returns the view that a triangle faces most: its normal's largest component, ties to the lowest axis.
 uint axis_of_triangle(vec3 a, vec3 b, vec3 c) {
     precise vec3 ab = b - a;
     precise vec3 ac = c - a;
@@ -52,33 +52,35 @@ uint axis_of_triangle(vec3 a, vec3 b, vec3 c) {
     return triangle_major_axis(normal);
 }
 
-// A point of the view's frame on the screen of the view, which spans [-1, 1] along each side, as in coverage.glsl.
+// Transforms a point of the view's frame to the screen of the view, which spans [-1, 1] along each side, as
+// in coverage.glsl.
 vec3 axis_on_screen(AxisView view, vec3 p) {
     return vec3(p.xy / view.cell * (2.0 / float(view.resolution)) - 1.0, 1.0);
 }
 
-// Clip-space corner `corner` of a screen triangle over every cell whose centre is within `margin` cells of the
-// triangle a, b, c (frame of the view), along both sides. The viewport holds the view with its border.
+// Returns clip-space corner `corner` of a screen triangle over every cell whose centre is within `margin`
+// cells of the triangle a, b, c (in the frame of the view), along both sides. The viewport holds the view
+// with its border.
 vec4 axis_proposal(AxisView view, vec3 a, vec3 b, vec3 c, uint corner, float margin) {
     return coverage_proposal_within(axis_on_screen(view, a), axis_on_screen(view, b), axis_on_screen(view, c), corner,
         view.resolution, margin * 2.0 / float(view.resolution));
 }
 
-// First and last cell, border included, whose centres may be within `margin` cells of the triangle a, b, c
-// (frame of the view); false where there is none.
+// Finds the first and last cell, border included, whose centres may be within `margin` cells of the triangle
+// a, b, c (in the frame of the view); false if there is none.
 bool axis_cells(AxisView view, vec3 a, vec3 b, vec3 c, float margin, out ivec2 lower, out ivec2 upper) {
     return coverage_cells(axis_on_screen(view, a), axis_on_screen(view, b), axis_on_screen(view, c), view.resolution,
         margin * 2.0 / float(view.resolution), lower, upper);
 }
 
-// The centre of a cell on the lower side of the cube, frame of the view.
+// Returns the centre of a cell on the lower side of the cube, in the frame of the view.
 vec3 axis_center(AxisView view, ivec2 cell) {
     precise vec2 center = (vec2(cell) + 0.5) * view.cell;
     return vec3(center, 0.0);
 }
 
-// True if the closed triangle a, b, c (frame of the view) covers the centre of a cell, with its depth and
-// barycentrics there.
+// True if the closed triangle a, b, c (in the frame of the view) covers the centre of a cell, with its depth
+// and barycentrics there.
 bool axis_at_center(AxisView view, vec3 a, vec3 b, vec3 c, ivec2 cell, out float z, out vec2 barycentrics) {
     float error;
     return triangle_intersect(axis_center(view, cell), vec3(0.0, 0.0, 1.0), a, b, c, z, barycentrics, error);
@@ -89,7 +91,8 @@ bool axis_has_cell(uint resolution, ivec2 cell) {
     return all(greaterThanEqual(cell, ivec2(0))) && all(lessThan(cell, ivec2(resolution)));
 }
 
-// Depth of the plane of a triangle (frame of the view) at a point; that of a corner where the plane is edge-on.
+// Returns the depth of a triangle's plane (in the frame of the view) at a point; that of a corner if the
+// plane is edge-on.
 float axis_plane_depth(vec3 a, vec3 b, vec3 c, vec2 p) {
     precise vec3 normal = cross(b - a, c - a);
     // Passes that count, store and peel must agree.
@@ -97,15 +100,16 @@ float axis_plane_depth(vec3 a, vec3 b, vec3 c, vec2 p) {
     return normal.z == 0.0 ? a.z : depth;
 }
 
-// Largest difference of the plane's depth within a cell from that at its centre, metres. The depth of a triangle that
-// faces this view most changes by at most one cell size per cell, along each side.
+// Returns the largest difference of the plane's depth within a cell from that at its centre, metres. The
+// depth of a triangle that faces this view most changes by at most one cell size per cell, along each side.
 float axis_extent(AxisView view, vec3 a, vec3 b, vec3 c) {
     vec3 normal = cross(b - a, c - a);
     float rise = 0.5 * (abs(normal.x) + abs(normal.y));
     return rise < abs(normal.z) ? rise / abs(normal.z) * view.cell : view.cell;
 }
 
-// More than rounding moves corners and rays, in cells; AXIS_REACH_MORE where they move for other reasons, too.
+// Returns a bound of the shift of corners and rays, in cells: more than rounding, and AXIS_REACH_MORE if they
+// move for other reasons, too.
 float axis_reach_slack(AxisView view) {
     float slack = 1.0e-4 + 1.0e-6 * float(view.resolution);
 #ifdef AXIS_REACH_MORE
@@ -114,10 +118,10 @@ float axis_reach_slack(AxisView view) {
     return slack;
 }
 
-// True if a triangle (frame of the view) reaches into a cell, or touches it within rounding: more than is exact,
-// never less. Precise: passes that count and store must agree.
+// True if a triangle (in the frame of the view) reaches into a cell, or touches it within rounding: it may
+// accept more than is exact, never less. It is precise, since passes that count and store must agree.
 bool axis_reaches_into(AxisView view, vec3 a, vec3 b, vec3 c, ivec2 cell) {
-    // In cells, from the centre.
+    // The lengths are in cells, from the centre.
     float slack = axis_reach_slack(view);
     vec2 center = vec2(cell) + 0.5;
     precise vec2 pa = a.xy / view.cell - center;
@@ -131,7 +135,7 @@ bool axis_reaches_into(AxisView view, vec3 a, vec3 b, vec3 c, ivec2 cell) {
     precise vec2 ac = pc - pa;
     precise float area = ab.x * ac.y - ab.y * ac.x;
     precise float uncertain = slack * (abs(ab.x) + abs(ab.y) + abs(ac.x) + abs(ac.y));
-    // Where the winding is not certain the corners' bounds decide alone.
+    // If the winding is not certain, the bounds of the corners decide alone.
     if (!(abs(area) > uncertain)) {
         return true;
     }
@@ -140,7 +144,7 @@ bool axis_reaches_into(AxisView view, vec3 a, vec3 b, vec3 c, ivec2 cell) {
     vec2 to[3] = vec2[3](pb, pc, pa);
     for (int edge = 0; edge < 3; edge++) {
         precise vec2 span = to[edge] - from[edge];
-        // Positive where a corner of the cell lies inside.
+        // The value is positive if a corner of the cell lies inside.
         precise float inside = winding * (from[edge].x * span.y - from[edge].y * span.x)
             + reach * (abs(span.x) + abs(span.y));
         if (inside < 0.0) {
@@ -150,13 +154,13 @@ bool axis_reaches_into(AxisView view, vec3 a, vec3 b, vec3 c, ivec2 cell) {
     return true;
 }
 
-// True if rounding moves the depths of a triangle in a cell by less than AXIS_DEPTH_SLACK cells: by less than a tenth
-// of a cell where its plane rises, and than a twentieth at a distance from corner a.
+// True if rounding moves the depths of a triangle in a cell by less than AXIS_DEPTH_SLACK cells: by less than
+// a tenth of a cell where its plane rises, and less than a twentieth at a distance from corner a.
 bool axis_depth_is_certain(AxisView view, vec3 a, vec3 b, vec3 c, ivec2 cell) {
     vec3 ab = abs(b - a);
     vec3 ac = abs(c - a);
     float facing = abs((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x));
-    // Error of a component of the normal, where corners are off by as much as in `axis_reaches_into`.
+    // The error of a component of the normal follows from errors of the corners as in `axis_reaches_into`.
     float error = axis_reach_slack(view) * view.cell * (ab.x + ab.y + ab.z + ac.x + ac.y + ac.z);
     vec2 away = abs(axis_center(view, cell).xy - a.xy);
     return 32.0 * error < facing && (away.x + away.y) * 2.5 * error < 0.05 * view.cell * facing;

@@ -11,17 +11,17 @@ bool ray_culls_back_faces(Ray ray) {
     return (ray.flags & RAY_CULL_BACK_FACES) != 0u;
 }
 
-// DRAW_* bits of the triangle with an id; none where it has no draw.
+// Returns the DRAW_* bits of the triangle with an id; none if the triangle has no draw.
 uint back_face_draw_flags_of_id(uint id) {
     return geometry_header.draw_count == 0u ? 0u : geometry_draws[geometry_draw_of_id(id)].flags;
 }
 
-// DRAW_* bits of a triangle of the geometry that is bound.
+// Returns the DRAW_* bits of a triangle of the bound geometry.
 uint back_face_draw_flags(uint primitive) {
     return back_face_draw_flags_of_id(geometry_id(primitive));
 }
 
-// True if the ray passes a triangle of the geometry that is bound, which it meets on this side.
+// True if the ray passes a triangle of the bound geometry, which it meets on this side.
 bool back_face_is_passed(Ray ray, uint primitive, bool counter_clockwise) {
     if (!ray_culls_back_faces(ray)) {
         return false;
@@ -30,7 +30,8 @@ bool back_face_is_passed(Ray ray, uint primitive, bool counter_clockwise) {
     return (flags & DRAW_SINGLE_SIDED) != 0u && counter_clockwise == ((flags & DRAW_MIRRORED) != 0u);
 }
 
-// True if the ray passes a fragment that stands for the triangle: the side that it meets is that of the plane.
+// True if the ray passes a fragment that stands for the triangle: the ray meets the side of the triangle's
+// plane.
 bool back_face_is_passed_by_plane(Ray ray, uint primitive) {
     if (!ray_culls_back_faces(ray)) {
         return false;

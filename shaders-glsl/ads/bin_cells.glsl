@@ -10,7 +10,7 @@
 #define BIN_ENQUEUES BIN_VISIT_LARGE
 #endif
 
-// One loop: invocations that run in lockstep pay for the longest of each loop.
+// Visits a rectangle of cells in one loop: invocations that run in lockstep pay for the longest of each loop.
 void bin_visit_cells(Bin bin, ivec2 lower, ivec2 upper) {
     ivec2 size = upper - lower + 1;
     for (int place = 0; place < size.x * size.y; place++) {

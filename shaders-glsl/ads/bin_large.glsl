@@ -17,7 +17,7 @@ void bin_enqueue(LargeRef s, uint entry) {
     atomicMax(LARGE_HEADER(s).groups[1], place / BIN_LARGE_ROW + 1u);
 }
 
-// The entry that a workgroup works on. False where the queue has fewer.
+// Reads the entry that a workgroup works on; false if the queue has fewer.
 bool bin_enqueued(LargeRef s, uint place, out uint entry) {
     bool is_there = place < min(LARGE_HEADER(s).large_demand, LARGE_CAPACITY(s));
     entry = is_there ? LARGE_WORD(s, place) : 0u;

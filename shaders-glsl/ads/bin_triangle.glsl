@@ -6,7 +6,7 @@
 #include "ads/geometry.glsl"
 #include "ads/triangle.glsl"
 
-// A triangle that is binned, with its corners as the structure wants them.
+// Triangle that is binned, with its corners in the form that the structure needs.
 struct BinTriangle {
     uint primitive;
     vec3 a;
@@ -14,7 +14,7 @@ struct BinTriangle {
     vec3 c;
 };
 
-// One with its corners as the geometry has them.
+// Reads a triangle with its posed corners.
 BinTriangle bin_posed(uint primitive) {
     BinTriangle triangle;
     triangle.primitive = primitive;
@@ -22,7 +22,8 @@ BinTriangle bin_posed(uint primitive) {
     return triangle;
 }
 
-// The corners of a triangle relative to a centre; false for one without area, which is in no list.
+// Reads the corners of a triangle relative to a centre; false for a triangle without area, which is in no
+// list.
 bool bin_corners(vec3 centre, uint primitive, out vec3 a, out vec3 b, out vec3 c) {
     geometry_vertices(primitive, a, b, c);
     bool listed = triangle_has_area(a, b, c);
@@ -32,13 +33,13 @@ bool bin_corners(vec3 centre, uint primitive, out vec3 a, out vec3 b, out vec3 c
     return listed;
 }
 
-// A triangle with its corners relative to a centre; false for one without area.
+// Reads a triangle with its corners relative to a centre; false for a triangle without area.
 bool bin_centred(vec3 centre, uint primitive, out BinTriangle triangle) {
     triangle.primitive = primitive;
     return bin_corners(centre, primitive, triangle.a, triangle.b, triangle.c);
 }
 
-// The bounds of a triangle relative to a centre.
+// Returns the bounds of a triangle relative to a centre.
 void bin_box(vec3 centre, uint primitive, out vec3 lower, out vec3 upper) {
     vec3 a;
     vec3 b;
@@ -48,12 +49,13 @@ void bin_box(vec3 centre, uint primitive, out vec3 lower, out vec3 upper) {
     upper = max(a, max(b, c)) - centre;
 }
 
-// True if bounds intersect the box of that half side around the centre, the near region.
+// True if bounds intersect the near region, the box of that half side around the centre.
 bool bin_box_is_near(vec3 lower, vec3 upper, float size) {
     return !any(greaterThan(lower, vec3(size))) && !any(lessThan(upper, vec3(-size)));
 }
 
-// Bounds in x/z and y/z of the part of an edge that is not nearer than the near region; unchanged where there is none.
+// Widens bounds in x/z and y/z by the part of an edge that is not nearer than the near region; they stay
+// unchanged if there is none.
 void bin_bound_edge(vec3 p, vec3 q, float near_size, inout vec4 bounds) {
     float s = p.z < near_size ? (near_size - p.z) / (q.z - p.z) : 0.0;
     if (max(p.z, q.z) < near_size) {
@@ -63,10 +65,10 @@ void bin_bound_edge(vec3 p, vec3 q, float near_size, inout vec4 bounds) {
     bounds = vec4(min(bounds.xy, place), max(bounds.zw, place));
 }
 
-// First and last column and row, of a face with `side` columns along a side and a border of that many cells, that may
-// hold any of the triangle (a, b, c in face space) or are within `margin` in x/z of it; false where none does. What
-// lies nearer than half the near region is tested with the near-region list, so edges are clipped there; the result is
-// correct to within one column.
+// Finds the first and last column and row, of a face with `side` columns along a side and a border of that
+// many cells, that may hold any part of the triangle (a, b, c in face space) or are within `margin` in x/z of
+// it; false if none does. Parts nearer than half the near region are tested with the near-region list, so
+// edges are clipped there; the result is correct to within one column.
 bool bin_bounds(uint side, float near_size, vec3 a, vec3 b, vec3 c, float margin, int border, out ivec2 lower, out ivec2 upper) {
     float view_near = 0.5 * near_size;
     const float far = 3.0e38;

@@ -3,8 +3,8 @@
 #ifndef ADS_BOUNDS_INTERVAL_GLSL
 #define ADS_BOUNDS_INTERVAL_GLSL
 
-// The part of [t_min, t_max] in which the ray is inside the bounds; empty if x > y. Corners and origin are
-// relative to one point.
+// Returns the part of [t_min, t_max] in which the ray is inside the bounds; empty if x > y. Corners and
+// origin are relative to one point.
 vec2 bounds_interval(vec3 lower, vec3 upper, vec3 origin, vec3 direction, float t_min, float t_max) {
     vec2 interval = vec2(t_min, t_max);
     for (int axis = 0; axis < 3; axis++) {
@@ -27,8 +27,8 @@ float largest_coordinate(vec3 v) {
     return max(max(abs(v.x), abs(v.y)), abs(v.z));
 }
 
-// Bound of the rounding of t for a hit within `reach` metres, for rays that do not run along the surface: 256 units of
-// rounding.
+// Returns a bound of the rounding of t for a hit within `reach` metres, for rays that do not run along the
+// surface: 256 units of rounding.
 float hit_slack(vec3 origin, vec3 direction, float reach) {
     return 1.6e-5 * (largest_coordinate(origin) + reach) / largest_coordinate(direction);
 }

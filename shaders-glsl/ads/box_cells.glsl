@@ -8,14 +8,14 @@
 #define ADS_BOX_CELLS_GLSL
 
 // Layout of the cells. Precise expressions take values from such a local copy: with addresses, glslang does
-// not end where they follow a reference.
+// not end if they follow a reference.
 struct BoxCells {
     vec3 lower;           // metres: corner of the first cell
     vec3 per_metre;       // cells
     float rounding;       // metres: how far a ray may be from a triangle that it hits, by rounding of test and march
 };
 
-// A ray, in cells.
+// Ray in units of cells.
 struct BoxLine {
     vec3 origin;
     vec3 direction;       // cells for each unit of t
@@ -30,15 +30,16 @@ BoxLine box_line(BoxCells axes, vec3 origin, vec3 direction) {
     return line;
 }
 
-// t at which the ray intersects each of three planes: below column planes.x, row planes.y, slice planes.z.
+// Returns the t at which the ray intersects each of three planes: below column planes.x, row planes.y, slice
+// planes.z.
 vec3 box_line_exits(BoxLine line, ivec3 planes) {
     vec3 t = (vec3(planes) - line.origin) * line.inverse;
     return mix(t, vec3(uintBitsToFloat(0x7F800000u)), equal(line.inverse, vec3(0.0)));
 }
 
-// The cell that the ray is in at t; outside of the grid, the nearest of its `size` cells.
+// Returns the cell that the ray is in at t; outside the grid, the nearest of its cells.
 ivec3 box_line_cell_at(BoxLine line, float t, ivec3 cells) {
-    // Clamped before it becomes an integer, which holds less than 2^31.
+    // The place is clamped before it becomes an integer, which must be less than 2^31.
     return ivec3(clamp(line.origin + t * line.direction, vec3(0.0), vec3(cells) - 0.5));
 }
 

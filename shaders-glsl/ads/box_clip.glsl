@@ -10,7 +10,7 @@
 
 #include "ads/box_cells.glsl"
 
-// A triangle, in cells.
+// Triangle in units of cells.
 struct BoxClip {
     vec3 a;
     vec3 b;
@@ -23,7 +23,7 @@ struct BoxClip {
     float slack;          // how far rounding moves a place in what follows, 32 units of the longest side
 };
 
-// a, b, c in metres from the centre.
+// Begins a triangle; a, b, c are in metres from the centre.
 BoxClip box_clip_begin(BoxCells axes, uvec3 cells, vec3 a, vec3 b, vec3 c) {
     BoxClip clip;
     precise vec3 pa = (a - axes.lower) * axes.per_metre;
@@ -74,7 +74,8 @@ void box_clip_edge(vec3 p, vec3 q, vec2 lower, vec2 upper, inout vec2 depths) {
     }
 }
 
-// Those of four points that lie on the inner side of the edge pq, or within rounding of it; `winding` is 1 or -1.
+// Returns which of four points lie on the inner side of the edge pq, or within rounding of it; `winding` is 1
+// or -1.
 bvec4 box_clip_inside(vec3 p, vec3 q, vec4 x, vec4 y, float winding, float slack) {
     precise vec2 span = q.xy - p.xy;
     precise vec4 value = winding * (span.x * (y - p.y) - span.y * (x - p.x));
@@ -101,7 +102,7 @@ void box_clip_corners(BoxClip clip, vec2 lower, vec2 upper, inout vec2 depths) {
     precise vec4 reach = error / (abs(clip.normal.z) - clip.normal_error.z) + clip.slack;
     for (int corner = 0; corner < 4; corner++) {
         if (ab[corner] && bc[corner] && ca[corner]) {
-            // Depths beyond the triangle's own corners are rounding.
+            // Depths beyond the triangle's own corners are errors of rounding.
             precise float nearest = clip.a.z - fall[corner] - reach[corner];
             precise float farthest = clip.a.z - fall[corner] + reach[corner];
             depths = vec2(min(depths.x, max(nearest, clip.lower.z)), max(depths.y, min(farthest, clip.upper.z)));
@@ -109,8 +110,8 @@ void box_clip_corners(BoxClip clip, vec2 lower, vec2 upper, inout vec2 depths) {
     }
 }
 
-// The depths of the triangle within a square of `side` columns, margins included; false where it does not
-// reach into it.
+// Finds the depths of the triangle within a square of `side` columns, margins included; false if it does not
+// reach into the square.
 bool box_clip_depths(BoxClip clip, ivec2 column, int side, out vec2 depths) {
     precise vec2 lower = vec2(column) - clip.margin.xy;
     precise vec2 upper = vec2(column + side) + clip.margin.xy;

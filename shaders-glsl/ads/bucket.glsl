@@ -6,10 +6,11 @@
 #ifndef ADS_BUCKET_GLSL
 #define ADS_BUCKET_GLSL
 
-// Buckets per metre. 0 where all depths are (nearly) the same: everything is in bucket 0.
-// Division may differ between two stages of one device, so the reciprocal is that of whole numbers: the upper 16
-// bits of the range, rounded up, divide 2^32. The scale is at most 2^-14 too small, and never too large, so the
-// largest depth is in the last bucket. Ranges from 2^110 on take the scale of the largest below.
+// Returns the number of buckets per metre; 0 if all depths are (nearly) equal, which puts everything into
+// bucket 0. Division may differ between two stages of one device, so the reciprocal is that of whole numbers:
+// the upper 16 bits of the range, rounded up, divide 2^32. The scale is at most 2^-14 too small, and never
+// too large, so the largest depth is in the last bucket. Ranges from 2^110 on take the scale of the largest
+// below.
 float bucket_scale(float z_min, float z_max, uint buckets) {
     precise float range = z_max - z_min;
     if (!(range > z_max * 9.5367432e-7)) {

@@ -12,7 +12,7 @@ layout(local_size_x = PYRAMID_THREADS) in;
 
 void main() {
     uint index = gl_GlobalInvocationID.y * gl_NumWorkGroups.x * PYRAMID_THREADS + gl_GlobalInvocationID.x;
-    // The step is the level, and from bit 8 on the first of the views.
+    // The step is the level, plus the first of the views in the bits from 8 on.
     uint first_view = build.step >> 8;
     PyramidLevel level = STRUCTURE_NAME(pyramid_first)(build.structure, first_view);
     PyramidLevel below = level;

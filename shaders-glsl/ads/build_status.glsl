@@ -6,7 +6,7 @@
 #include "ads/geometry.glsl"
 #include "contract/constants.glsl"
 
-// Traces answer only where everything fitted and every triangle is where the geometry says.
+// Returns the status: traces answer only if everything fitted and every triangle is within the stated bounds.
 uint build_status(bool fits) {
     return geometry_header.stamp | (fits && geometry_is_sound() ? STATUS_COMPLETE : STATUS_OVERFLOW);
 }

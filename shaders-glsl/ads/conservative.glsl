@@ -20,7 +20,7 @@ struct ConservativeNode {
 };
 
 uint conservative_pack_depths(vec2 depths) {
-    // Rounding up the largest finite number gives infinity; infinity itself stays as it is.
+    // Rounding up the largest finite number gives infinity; infinity stays unchanged.
     uint high = min((floatBitsToUint(depths.y) >> 16) + 1u, 0x7F80u);
     return floatBitsToUint(depths.x) >> 16 | high << 16;
 }
@@ -42,7 +42,7 @@ void conservative_add(ConservativeRef s, uint cell, uint primitive, vec2 depths)
     }
 }
 
-// The node behind a link. A link past the end is counted and answers the end.
+// Returns the node of a link. A link past the end is counted and gives the end of the list.
 ConservativeNode conservative_node(ConservativeRef s, uint link) {
     if (link - 1u >= min(CONSERVATIVE_HEADER(s).conservative_capacity, CONSERVATIVE_HEADER(s).conservative_demand)) {
         atomicAdd(CONSERVATIVE_HEADER(s).corrupted, 1u);

@@ -15,8 +15,8 @@ struct CellCoverage {
     vec2 barycentrics;   // of vertices 1 and 2 at the centre
 };
 
-// Largest |depth - z| that the triangle's plane reaches within the cell, z being its depth at the
-// centre. Infinite where the plane is edge-on to some ray of the cell.
+// Returns the largest |depth - z| that the triangle's plane reaches within the cell, where z is its depth at
+// the centre; infinite if the plane is edge-on to some ray of the cell.
 float coverage_extent(vec3 a, vec3 b, vec3 c, vec3 center_direction, float z, uint resolution) {
     // Depth over the cell is offset / (normal . direction): its extremes are at the corners.
     vec3 normal = cross(b - a, c - a);
@@ -34,8 +34,8 @@ vec3 coverage_center(ivec2 cell, uint resolution) {
     return vec3(cell_center(cell.x, resolution), cell_center(cell.y, resolution), 1.0);
 }
 
-// a, b, c in face space. True iff the closed triangle covers the centre of the cell in front of the
-// eye. The ray through the centre has direction (x, y, 1), so its t is the depth.
+// True if the closed triangle covers the centre of the cell in front of the eye; a, b, c are in face space.
+// The ray through the centre has direction (x, y, 1), so its t is the depth.
 bool coverage_at_center(vec3 a, vec3 b, vec3 c, ivec2 cell, uint resolution, out CellCoverage coverage) {
     vec3 direction = coverage_center(cell, resolution);
     float t_error;
@@ -48,8 +48,8 @@ bool coverage_at_center(vec3 a, vec3 b, vec3 c, ivec2 cell, uint resolution, out
     return true;
 }
 
-// Homogeneous edge through p and q, wound so that the inside is positive for s = 1, moved outwards
-// by `margin` in x/z and by a bound of its own rounding.
+// Returns the homogeneous edge through p and q, wound so that the inside is positive for s = 1, moved
+// outwards by `margin` in x/z and by a bound of its own rounding.
 vec3 coverage_edge(vec3 p, vec3 q, float s, float margin) {
     vec3 span = q - p;
     vec3 edge = cross(p, span) * s;
@@ -61,9 +61,9 @@ vec3 coverage_edge(vec3 p, vec3 q, float s, float margin) {
     return edge;
 }
 
-// Widens bounds by p, if it is deeper than `least`, and by the edge to q up to the plane of the eye, if q is not. Along
-// such an edge x/z and y/z run beyond all limits, to the side that p.z q - q.z p is on; to both where rounding leaves
-// that open.
+// Widens bounds by p, if it is deeper than `least`, and by the edge to q up to the plane of the eye, if q is
+// not deeper. Along such an edge x/z and y/z grow beyond all limits, to the side on which p.z q - q.z p lies;
+// to both sides if rounding leaves that open.
 void coverage_widen(vec3 p, vec3 q, float least, float limit, inout vec4 bounds) {
     if (!(p.z > least)) {
         return;
@@ -80,8 +80,8 @@ void coverage_widen(vec3 p, vec3 q, float least, float limit, inout vec4 bounds)
     bounds.zw = mix(vec2(limit), bounds.zw, lessThan(at_q - at_p, -rounding));
 }
 
-// Bounds in x/z and y/z (lower, upper) of the part of the triangle in front of the eye, clipped to the
-// face with its border. False where nothing does.
+// Finds the bounds in x/z and y/z (lower, upper) of the part of the triangle in front of the eye, clipped to
+// the face with its border; false if there is no such part.
 bool coverage_bounds(vec3 a, vec3 b, vec3 c, uint resolution, out vec4 bounds) {
     float limit = 1.0 + 2.0 / float(resolution);
     bounds = vec4(-limit, -limit, limit, limit);
@@ -102,8 +102,8 @@ bool coverage_bounds(vec3 a, vec3 b, vec3 c, uint resolution, out vec4 bounds) {
     return bounds.x <= bounds.z && bounds.y <= bounds.w;
 }
 
-// First and last column and row of the cells whose centres may be within `margin` of the triangle in x/z and in y/z, in
-// a view with a border of one cell; false where there is none.
+// Finds the first and last column and row of the cells whose centres may be within `margin` of the triangle
+// in x/z and in y/z, in a view with a border of one cell; false if there is none.
 bool coverage_cells(vec3 a, vec3 b, vec3 c, uint resolution, float margin, out ivec2 lower, out ivec2 upper) {
     lower = ivec2(0);
     upper = ivec2(-1);
@@ -118,14 +118,15 @@ bool coverage_cells(vec3 a, vec3 b, vec3 c, uint resolution, float margin, out i
     return all(lessThanEqual(lower, upper));
 }
 
-// Corners in x/z and y/z of a triangle that covers every point within `margin` of the triangle, in x/z and in y/z: its
-// edges moved outwards. False where a triangle over a rectangle of `size` (x/z, y/z) that holds these points is the
-// better proposal: where the triangle reaches behind the eye, the winding is not certain, or the edges form a spike.
+// Finds the corners in x/z and y/z of a triangle that covers every point within `margin` of the triangle, in
+// x/z and in y/z: its edges moved outwards. False if a triangle over a rectangle of `size` (x/z, y/z) that
+// holds these points is the better proposal: if the triangle reaches behind the eye, the winding is not
+// certain, or the edges form a spike.
 bool coverage_dilated(vec3 a, vec3 b, vec3 c, float margin, vec2 size, out vec2 corners[3]) {
     float nearest = min(a.z, min(b.z, c.z));
     vec3 normal = cross(b - a, c - a);
     float facing = dot(normal, a);
-    // Close to edge-on the winding is not certain, and edges moved the wrong way would lose cells.
+    // Close to edge-on the winding is not certain, and edges moved to the wrong side would lose cells.
     bool winding_certain = abs(facing) > 1.0e-5 * length(a) * length(b - a) * length(c - a);
     if (!winding_certain || !(nearest > 1.0e-6 * max(a.z, max(b.z, c.z)))) {
         return false;
@@ -149,21 +150,21 @@ bool coverage_dilated(vec3 a, vec3 b, vec3 c, float margin, vec2 size, out vec2 
     vec2 v = corners[2] - corners[0];
     float area = abs(u.x * v.y - u.y * v.x);
     vec2 farthest = max(abs(corners[0]), max(abs(corners[1]), abs(corners[2])));
-    // Slivers dilate into long spikes: there the rectangle is the smaller proposal.
+    // Slivers dilate into long spikes, for which the rectangle is the smaller proposal.
     return area < 1.8 * 2.0 * size.x * size.y && max(farthest.x, farthest.y) < 64.0;
 }
 
-// Corner `corner` of the one triangle over a rectangle: the corner of the rectangle nearest to the middle of the view,
-// and twice its sides, outwards.
+// Returns corner `corner` of the one triangle over a rectangle: the corner of the rectangle nearest to the
+// middle of the view, and twice its sides, outwards.
 vec2 coverage_rectangle(vec4 bounds, uint corner) {
     vec2 sides = vec2(corner == 1u ? 2.0 : 0.0, corner == 2u ? 2.0 : 0.0) * (bounds.zw - bounds.xy);
     bvec2 is_below = lessThan(bounds.xy + bounds.zw, vec2(0.0));
     return mix(bounds.xy + sides, bounds.zw - sides, is_below);
 }
 
-// Clip-space corner `corner` of a screen triangle that covers every cell whose centre is within `margin`
-// of the triangle, in x/z and in y/z. The viewport holds the face with its border. Returns a point outside
-// the clip volume where nothing needs drawing.
+// Returns clip-space corner `corner` of a screen triangle that covers every cell whose centre is within
+// `margin` of the triangle, in x/z and in y/z. The viewport holds the face with its border. Returns a point
+// outside the clip volume if nothing needs drawing.
 vec4 coverage_proposal_within(vec3 a, vec3 b, vec3 c, uint corner, uint resolution, float margin) {
     vec4 bounds;
     if (!coverage_bounds(a, b, c, resolution, bounds)) {
@@ -178,8 +179,8 @@ vec4 coverage_proposal_within(vec3 a, vec3 b, vec3 c, uint corner, uint resoluti
     return vec4(p * to_clip, 0.5, 1.0);
 }
 
-// coverage_proposal_within for cells whose centre the triangle covers, with a margin for the hardware's snapping: 1/32
-// of a cell.
+// Returns coverage_proposal_within for cells whose centre the triangle covers, with a margin of 1/32 of a
+// cell for the hardware's snapping.
 vec4 coverage_proposal(vec3 a, vec3 b, vec3 c, uint corner, uint resolution) {
     return coverage_proposal_within(a, b, c, corner, resolution, 2.0 / float(resolution) / 32.0);
 }

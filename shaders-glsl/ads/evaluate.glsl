@@ -10,8 +10,9 @@
 #include "ads/geometry.glsl"
 #include "ads/triangle.glsl"
 
-// The verdict (TEST_*) on a triangle with these corners for hits within [t_low, t_high]; t and t_error are 0 where the
-// ray does not intersect it. Candidates are excluded and ranked by their numbers, which are in the order of ids.
+// Returns the verdict (TEST_*) on a triangle with these corners for hits within [t_low, t_high]; t and
+// t_error are 0 if the ray does not intersect it. Candidates are excluded and ranked by their numbers, which
+// are in the order of ids.
 uint evaluate_corners(Ray ray, Hit best, uint primitive, vec3 a, vec3 b, vec3 c, float t_low, float t_high, out float t,
     out vec2 barycentrics, out float t_error) {
     t = 0.0;
@@ -42,7 +43,7 @@ uint evaluate_corners(Ray ray, Hit best, uint primitive, vec3 a, vec3 b, vec3 c,
     return alpha_accepts(primitive, barycentrics) ? TEST_ACCEPTED : TEST_TRANSPARENT;
 }
 
-// evaluate_corners with the corners of the geometry.
+// Returns the verdict of evaluate_corners with the corners of the geometry.
 uint evaluate_triangle(Ray ray, Hit best, uint primitive, float t_low, float t_high, out float t, out vec2 barycentrics,
     out float t_error) {
     vec3 a;
@@ -52,7 +53,7 @@ uint evaluate_triangle(Ray ray, Hit best, uint primitive, float t_low, float t_h
     return evaluate_corners(ray, best, primitive, a, b, c, t_low, t_high, t, barycentrics, t_error);
 }
 
-// Logs the verdict on a triangle, and that it is the best hit if it is accepted.
+// Logs the verdict on a triangle, and, if it is accepted, that it is the best hit.
 void test_log(uint primitive, uint verdict, float t, float t_error) {
     if (COUNTERS >= COUNTERS_STEPS) {
         trace_log(STEP_TEST, primitive, verdict, 0u, t, t_error);
@@ -62,8 +63,8 @@ void test_log(uint primitive, uint verdict, float t, float t_error) {
     }
 }
 
-// Evaluates a triangle, logs the verdict, and replaces the best hit if the triangle is accepted. True if it was
-// replaced. The caller counts the test.
+// Evaluates a triangle, logs the verdict, and replaces the best hit if the triangle is accepted. Returns true
+// if the hit was replaced. The caller counts the test.
 bool test_corners(Ray ray, uint primitive, vec3 a, vec3 b, vec3 c, float t_low, float t_high, inout Hit best) {
     float t;
     vec2 barycentrics;
@@ -77,7 +78,7 @@ bool test_corners(Ray ray, uint primitive, vec3 a, vec3 b, vec3 c, float t_low, 
     return true;
 }
 
-// test_corners with the corners of the geometry.
+// Tests as test_corners with the corners of the geometry.
 bool test_triangle(Ray ray, uint primitive, float t_low, float t_high, inout Hit best) {
     vec3 a;
     vec3 b;
@@ -86,7 +87,7 @@ bool test_triangle(Ray ray, uint primitive, float t_low, float t_high, inout Hit
     return test_corners(ray, primitive, a, b, c, t_low, t_high, best);
 }
 
-// test_triangle for hits at any t. Counts the test.
+// Tests as test_triangle for hits at any t. Counts the test.
 bool test_anywhere(Ray ray, uint primitive, inout TraceState state) {
     float infinity = uintBitsToFloat(0x7F800000u);
     state.tests++;

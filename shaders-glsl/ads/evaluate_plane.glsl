@@ -12,7 +12,7 @@
 #include "ads/evaluate.glsl"
 #include "ads/triangle.glsl"
 
-// The width of a cell at a point, and how far beyond its triangle a plane is accepted.
+// Width of a cell at a point, and the reach of an accepted plane beyond its triangle.
 struct PlaneCell {
     vec3 eye;             // metres: the point from which cells widen
     float slope;          // width per metre of distance from the eye along its largest axis; 0: all cells are equal
@@ -21,7 +21,7 @@ struct PlaneCell {
     bool anywhere;        // hits on the triangle itself are accepted outside of the cell too, as alpha is tested there
 };
 
-// Barycentrics of the point of a triangle's plane below `p`; they may lie outside [0, 1].
+// Returns the barycentrics of the point of a triangle's plane below `p`; they may lie outside [0, 1].
 vec2 plane_barycentrics(uint primitive, vec3 p) {
     vec3 a;
     vec3 b;
@@ -30,7 +30,7 @@ vec2 plane_barycentrics(uint primitive, vec3 p) {
     return triangle_barycentrics(p, a, b, c);
 }
 
-// True if a point with these barycentrics lies on its triangle, and not only on the plane of it.
+// True if a point with these barycentrics lies on its triangle, and not only on the triangle's plane.
 bool plane_is_inside(vec2 barycentrics) {
     return barycentrics.x >= 0.0 && barycentrics.y >= 0.0 && barycentrics.x + barycentrics.y <= 1.000001;
 }
@@ -46,13 +46,14 @@ bool plane_is_better(Hit best, float t, uint primitive, vec2 barycentrics) {
     return hit_is_better(best, t, primitive);
 }
 
-// The best hit, changed so that a candidate at the same t passes the test: plane_is_better ranks those.
+// Returns the best hit, changed so that a candidate at the same t passes the test: plane_is_better ranks such
+// candidates.
 Hit plane_rival(Hit best) {
     best.primitive = best.primitive == PRIMITIVE_NONE ? PRIMITIVE_NONE : PRIMITIVE_UNKNOWN;
     return best;
 }
 
-// The verdict (TEST_*) on the plane of a triangle, for intersections within [t_low, t_high].
+// Returns the verdict (TEST_*) on the plane of a triangle, for intersections within [t_low, t_high].
 uint evaluate_plane(PlaneCell cell, Ray ray, Hit best, uint primitive, float t_low, float t_high, out float t,
     out vec2 barycentrics, out float t_error) {
     vec3 a;
@@ -78,7 +79,7 @@ uint evaluate_plane(PlaneCell cell, Ray ray, Hit best, uint primitive, float t_l
     if (!proper && !(t >= t_low && t <= t_high)) {
         return TEST_OUTSIDE_CELL;
     }
-    // Beyond its triangle the ray meets the side that it meets of the plane.
+    // Beyond its triangle the ray meets the side of the plane that faces it.
     bool side = inside ? counter_clockwise : dot(cross(b - a, c - a), ray.direction) < 0.0;
     if (back_face_is_passed(ray, primitive, side)) {
         return TEST_BACK_FACE;
@@ -130,7 +131,7 @@ void test_listed(Ray ray, uint primitive, float t_low, float t_high, bool with_p
     }
 }
 
-// test_listed where fragments are hit by their planes.
+// Tests as test_listed with fragments that are hit by their planes.
 void test_with_planes(Ray ray, uint primitive, float t_low, float t_high, inout Hit best) {
     test_listed(ray, primitive, t_low, t_high, true, best);
 }

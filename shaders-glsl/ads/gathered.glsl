@@ -17,7 +17,7 @@ layout(set = 1, binding = 0, scalar) readonly buffer GeometrySourceBuffer {
     uint geometry_source_words[];
 };
 
-// The index at a place below `index_count`.
+// Returns the index at a place less than `index_count`.
 uint source_index(uint place) {
     place += pushed.first_place;
     if (pushed.index_bytes == 4u) {
@@ -26,7 +26,8 @@ uint source_index(uint place) {
     return bitfieldExtract(geometry_source_words[place / 2u], int(16u * (place % 2u)), 16);
 }
 
-// PRIMITIVE_NONE, which is no vertex and so counted by the check, where there is no index or the sum wraps.
+// Returns an absolute index; PRIMITIVE_NONE, which is no vertex and is therefore counted by the check, if
+// there is no index or the sum wraps.
 uint absolute_index(Draw draw, uint local) {
     if (draw.first_index > pushed.index_count || local >= pushed.index_count - draw.first_index) {
         return PRIMITIVE_NONE;
@@ -37,13 +38,13 @@ uint absolute_index(Draw draw, uint local) {
     return wraps ? PRIMITIVE_NONE : vertex;
 }
 
-// The vertices of a triangle that there is; PRIMITIVE_NONE where an index is missing.
+// Returns the vertices of an existing triangle; PRIMITIVE_NONE for a missing index.
 uvec3 gathered_triangle(uint primitive) {
     Draw draw = Draw(0u, pushed.per_draw == 0u ? pushed.index_count / 3u : 0u, 0u, 0u, 0u, 0);
     if (pushed.per_draw != 0u && geometry_header.draw_count > 0u) {
         draw = geometry_draws[geometry_draw(primitive)];
     }
-    // A triangle before the first draw wraps to a large number.
+    // The number of a triangle before the first draw wraps to a large one.
     uint local = geometry_id(primitive) - draw.first_triangle;
     if (local >= draw.triangle_count) {
         return uvec3(PRIMITIVE_NONE);

@@ -42,7 +42,8 @@ struct GeometryHeader {
 #endif
 layout(set = GEOMETRY_SET, binding = 0, scalar) GEOMETRY_HEADER_ACCESS buffer GeometryHeaderBuffer {
     GeometryHeader geometry_header;
-    // Runs of a part that has several, in order: for each its first triangle here, and the id of that.
+    // Runs of a part that has several, in order: for each the number of its first triangle in the part, and
+    // the id of that triangle.
     uvec2 geometry_runs[];
 };
 #ifdef GEOMETRY_GATHERED
@@ -64,7 +65,7 @@ uint geometry_triangle_count() {
     return geometry_header.triangle_count;
 }
 
-// True if the build may be complete: only then do its pools represent the triangles.
+// True if the build may be complete: only then do the pools represent the triangles.
 bool geometry_is_sound() {
     return geometry_header.outside == 0u;
 }
@@ -74,7 +75,7 @@ bool geometry_is_built(uint status) {
     return (status & STATUS_COMPLETE) != 0u && (status & ~STATUS_FLAGS) == geometry_header.stamp;
 }
 
-// Posed position of a vertex; the origin where the index is out of range.
+// Returns the posed position of a vertex; the origin if the index is out of range.
 vec3 geometry_position(uint vertex) {
     if (vertex >= geometry_header.vertex_count) {
         return vec3(0.0);
@@ -83,7 +84,7 @@ vec3 geometry_position(uint vertex) {
     return vec3(geometry_positions[word], geometry_positions[word + 1u], geometry_positions[word + 2u]);
 }
 
-// The three vertex indices of a triangle.
+// Returns the three vertex indices of a triangle.
 uvec3 geometry_triangle(uint primitive) {
     if (primitive >= geometry_header.triangle_count) {
         return uvec3(0u);
@@ -92,20 +93,20 @@ uvec3 geometry_triangle(uint primitive) {
     return uvec3(geometry_indices[first], geometry_indices[first + 1u], geometry_indices[first + 2u]);
 }
 
-// The posed positions of three vertices.
+// Returns the posed positions of three vertices.
 void geometry_corners(uvec3 vertices, out vec3 a, out vec3 b, out vec3 c) {
     a = geometry_position(vertices.x);
     b = geometry_position(vertices.y);
     c = geometry_position(vertices.z);
 }
 
-// The three posed corners of a triangle.
+// Returns the three posed corners of a triangle.
 void geometry_vertices(uint primitive, out vec3 a, out vec3 b, out vec3 c) {
     geometry_corners(geometry_triangle(primitive), a, b, c);
 }
 
-// The global id of a triangle, which hits have. A part of a geometry numbers its triangles from 0, in the order of their
-// ids; everywhere else the number is the id. O(log runs).
+// Returns the global id of a triangle, which hits have. A part of a geometry numbers its triangles from 0, in
+// the order of their ids; everywhere else the number is the id. O(log runs).
 uint geometry_id(uint primitive) {
     uint end = geometry_header.run_count;
     if (end == 0u) {
@@ -121,13 +122,14 @@ uint geometry_id(uint primitive) {
     return found.y + (primitive - found.x);
 }
 
-// The id that a hit or a candidate names, which may be nothing or a fragment that does not keep its triangle.
+// Returns the id of a hit or a candidate, which may be nothing or a fragment that does not keep its triangle.
 uint geometry_id_of(uint primitive) {
     return primitive < PRIMITIVE_UNKNOWN ? geometry_id(primitive) : primitive;
 }
 
-// Triangles of the part whose ids are lower than an id, whichever part that is in: so the number of the part's own
-// triangle with it, and what tells the numbers of triangles with lower ids from those with higher ones. O(log runs).
+// Returns the number of triangles of the part whose ids are lower than an id of any part. For an id of the
+// part this is the triangle's number; for any other it separates the numbers of triangles with lower ids from
+// those with higher ids. O(log runs).
 uint geometry_rank(uint id) {
     uint count = geometry_header.triangle_count;
     uint end = geometry_header.run_count;
@@ -145,13 +147,14 @@ uint geometry_rank(uint id) {
     return id < found.y ? 0u : found.x + min(id - found.y, count - found.x);
 }
 
-// The number of the triangle with an id; PRIMITIVE_NONE where the part has none of that id. O(log runs).
+// Returns the number of the triangle with an id; PRIMITIVE_NONE if the part does not have it. O(log runs).
 uint geometry_number(uint id) {
     uint rank = geometry_rank(id);
     return rank < geometry_header.triangle_count && geometry_id(rank) == id ? rank : PRIMITIVE_NONE;
 }
 
-// The draw of the triangle with an id, in O(log draws): draws lie in the order of their triangles. 0 where there is none.
+// Returns the draw of the triangle with an id, in O(log draws): draws lie in the order of their triangles. 0
+// if there is none.
 uint geometry_draw_of_id(uint id) {
     uint draw = 0u;
     uint end = geometry_header.draw_count;
@@ -163,7 +166,7 @@ uint geometry_draw_of_id(uint id) {
     return draw;
 }
 
-// The draw of a triangle by its number.
+// Returns the draw of a triangle by the triangle's number.
 uint geometry_draw(uint primitive) {
     return geometry_draw_of_id(geometry_id(primitive));
 }

@@ -19,7 +19,7 @@ layout(local_size_x = 64) in;
 shared uint shared_keys[6];
 
 void include_corner(vec3 corner) {
-    // NaN corners are ignored; the check finds those that no bounds hold.
+    // NaN corners are ignored; the check finds triangles that no bounds hold.
     if (any(isnan(corner)) || any(isinf(corner))) {
         return;
     }

@@ -10,7 +10,7 @@ layout(local_size_x = 64) in;
 #define GEOMETRY_WRITTEN
 #include "ads/geometry.glsl"
 
-// NaN corners are never outside: no ray hits their triangles.
+// True if a corner is outside the bounds. NaN corners never are: no ray hits their triangles.
 bool is_outside(vec3 corner) {
     return any(lessThan(corner, geometry_header.lower)) || any(greaterThan(corner, geometry_header.upper));
 }

@@ -27,7 +27,7 @@ layout(set = 1, binding = 1, scalar) writeonly buffer GeometryDrawArgumentBuffer
 
 void main() {
     uint triangles = min(geometry_counts[pushed.count_word], pushed.most_triangles);
-    // Where triangles came or went, what was built before is not of these.
+    // If triangles were added or removed, an earlier build is not of these triangles.
     if (geometry_header.stamp == 0u || triangles != geometry_header.triangle_count) {
         uint step = STATUS_FLAGS + 1u;
         uint taken = geometry_header.stamp == 0u ? 0u : (geometry_header.stamp - pushed.first_stamp) / step + 1u;

@@ -6,13 +6,14 @@
 #ifndef ADS_HEAP_SORT_GLSL
 #define ADS_HEAP_SORT_GLSL
 
-// Levels of a heap of 32-bit places, and a step to begin: the maximum number of steps of one sift.
+// Largest number of steps of one sift: levels of a heap of 32-bit places, and a step to begin.
 #define HEAP_SIFT_STEPS 33u
 
-// Sorts as far as `steps` go, in one loop, because drivers may end all loops of an
-// invocation after 65,535 iterations, and invocations that run in lockstep pay for the longest of each loop.
-// `progress` counts sifts and begins at 0: length / 2 of them make the heap, then each of length - 1 moves its largest
-// element to the end of the rest. True once all are done; in between the elements are whole. length is at least 2.
+// Sorts for at most `steps` steps, in one loop, because drivers may end all loops of an invocation after
+// 65,535 iterations, and invocations that run in lockstep pay for the longest of each loop. `progress` counts
+// sifts and begins at 0: length / 2 of them make the heap, then each of length - 1 moves its largest element
+// to the end of the rest. Returns true once all are done; in between no element is lost. length is at least
+// 2.
 bool heap_sort_share(uint length, uint steps, inout uint progress) {
     uint making = length / 2u;
     uint sifts = making + length - 1u;

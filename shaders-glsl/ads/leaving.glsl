@@ -6,9 +6,9 @@
 
 #include "ads/geometry.glsl"
 
-// The ray from a point that lies, along the normal of a triangle and to the side that it goes to, beyond everything within
-// `reach` metres of the plane along each axis. It is moved beside itself and begins later, so that t stays that of the ray as
-// it was.
+// Moves a ray to begin at a point that lies, along the normal of a triangle and to the side that the ray goes
+// to, beyond everything within `reach` metres of the plane along each axis. The ray is moved sideways and
+// begins later, so that t stays that of the given ray.
 Ray leaving_triangle(Ray ray, float reach, vec3 a, vec3 b, vec3 c) {
     vec3 normal = cross(b - a, c - a);
     float size = length(normal);
@@ -22,7 +22,8 @@ Ray leaving_triangle(Ray ray, float reach, vec3 a, vec3 b, vec3 c) {
     return ray;
 }
 
-// leaving_triangle of the triangle that the ray excludes. Unchanged where it excludes none.
+// Moves as leaving_triangle a ray from the triangle that it excludes; the ray stays unchanged if it excludes
+// none.
 Ray leaving_ray(Ray ray, float reach) {
     if (ray.exclude_primitive >= geometry_triangle_count()) {
         return ray;

@@ -4,7 +4,8 @@
 #ifndef ADS_LIST_OF_PLACE_GLSL
 #define ADS_LIST_OF_PLACE_GLSL
 
-// The first of `count` lists that ends past the place: the list that contains it, or the next one where none does.
+// Returns the first of `count` lists that ends past the place: the list that contains it, or the next one if
+// none does.
 uint list_of_place(uint count, uint place) {
     uint begin = 0u;
     uint end = count - 1u;

@@ -8,7 +8,7 @@
 
 #include "ads/evaluate.glsl"
 
-// Resumes at `place`. True if the work budget was used up first.
+// Tests triangles from `place` on. Returns true if the work budget was used up before the end.
 bool listed_test(ListedRef s, Ray ray, bool all_triangles, bool any_hit, inout uint place, inout TraceState state, inout uint work) {
     uint count = geometry_triangle_count();
 #ifdef LISTED_NEAR

@@ -11,7 +11,7 @@
 
 #define MARCH_INFINITY uintBitsToFloat(0x7F800000u)
 
-// A traversal of one face between two t.
+// Traversal of one face between two t.
 struct CellMarch {
     vec3 origin;          // face space, metres from the eye
     vec3 direction;
@@ -29,7 +29,8 @@ struct CellMarch {
     uint touched;         // those of them next to the exit: the ray may be in the cells opposite from t_out on
 };
 
-// t at which the ray intersects x/z = boundary, and a bound of its error. Infinite where it does not.
+// Returns the t at which the ray intersects x/z = boundary, and a bound of its error; infinite if it does
+// not.
 float march_crossing(float boundary, float o, float d, float oz, float dz, int direction, out float error) {
     precise float numerator = boundary * oz - o;
     precise float denominator = d - boundary * dz;
@@ -44,15 +45,16 @@ float march_crossing(float boundary, float o, float d, float oz, float dz, int d
     return t;
 }
 
-// Bits of the cells around a cell along one axis that a point touches within rounding: 1 the lower
-// neighbour, 2 the cell itself, 4 the upper one. Where a cell is no wider than the rounding, all three.
+// Returns bits of the cells around a cell along one axis that a point touches within rounding: 1 the lower
+// neighbour, 2 the cell itself, 4 the upper one; all three if a cell is no wider than the rounding.
 uint march_touching(float lower, float upper, float x, float z, float guard) {
     precise float from_lower = x - lower * z;
     precise float from_upper = x - upper * z;
     return 2u | (abs(from_lower) <= guard ? 1u : 0u) | (abs(from_upper) <= guard ? 4u : 0u);
 }
 
-// Bits of the cells that the ray touches within rounding at t: the neighbours of `cell` along x, y, and both.
+// Returns bits of the cells that the ray touches within rounding at t: the neighbours of `cell` along x, y,
+// and both.
 uint march_touched(CellMarch m, float t, float t_error, bool along_x, bool along_y) {
     float size = max(max(abs(m.origin.x), abs(m.origin.y)), abs(m.origin.z));
     float speed = max(max(abs(m.direction.x), abs(m.direction.y)), abs(m.direction.z));
@@ -69,7 +71,7 @@ uint march_touched(CellMarch m, float t, float t_error, bool along_x, bool along
     return bits & ~(1u << 4);
 }
 
-// Finds where the ray exits the current cell, and which neighbours it touches at the exit.
+// Finds the exit of the ray from the current cell, and the neighbours that it touches at the exit.
 void march_find_exit(inout CellMarch m) {
     float error_x;
     float error_y;
@@ -80,7 +82,7 @@ void march_find_exit(inout CellMarch m) {
     float ty = m.step_direction.y == 0 ? MARCH_INFINITY
         : march_crossing(cell_boundary(next_y, m.resolution), m.origin.y, m.direction.y, m.origin.z, m.direction.z, m.step_direction.y, error_y);
     int side = int(m.resolution);
-    // The border is the last cell: there the segment ends instead of stepping on.
+    // The border is the last cell: there the segment ends and no further step is made.
     bool x_inside = m.step_direction.x > 0 ? m.cell.x < side : m.cell.x > -1;
     bool y_inside = m.step_direction.y > 0 ? m.cell.y < side : m.cell.y > -1;
     m.step_x = x_inside && tx <= ty && tx < m.t_end;
@@ -99,7 +101,7 @@ void march_find_exit(inout CellMarch m) {
     }
 }
 
-// The cell that the ray is in at t; beyond the face, a cell of the border.
+// Returns the cell that the ray is in at t; beyond the face, a cell of the border.
 ivec2 march_cell_at(vec3 origin, vec3 direction, float t, uint resolution) {
     vec3 p = origin + t * direction;
     vec2 q = (p.xy / p.z * 0.5 + 0.5) * float(resolution);
@@ -109,9 +111,9 @@ ivec2 march_cell_at(vec3 origin, vec3 direction, float t, uint resolution) {
     return ivec2(floor(q));
 }
 
-// Starts a traversal at the begin of a segment; the exit of its first cell is still to be found (march_find_exit).
-// origin and direction are in face space; the segment [t_begin, t_end] lies in the face's pyramid within
-// rounding. t_error bounds the error of t_begin.
+// Starts a traversal at the begin of a segment; the exit of its first cell is still to be found
+// (march_find_exit). origin and direction are in face space; the segment [t_begin, t_end] lies in the face's
+// pyramid within rounding. t_error bounds the error of t_begin.
 CellMarch march_place(vec3 origin, vec3 direction, uint resolution, float t_begin, float t_end, float t_error) {
     CellMarch m;
     m.origin = origin;

@@ -10,9 +10,9 @@
 #include "contract/constants.glsl"
 
 #define SEGMENT_NEAR VIEW_NEAR
-// In place of a face: the ray is tested against every triangle.
+// Value in place of a face: the ray is tested against every triangle.
 #define SEGMENT_ALL 7u
-// Six planes, two sides of the near region, and the end.
+// Largest number of segments: six planes, two sides of the near region, and the end.
 #define SEGMENT_LIMIT 10u
 
 struct Segment {
@@ -22,7 +22,7 @@ struct Segment {
     float t_error;    // bounds the error of both ends
 };
 
-// t interval of a ray within the box |p|_max <= size, widened by rounding; empty if x > y.
+// Returns the t interval of a ray within the box |p|_max <= size, widened by rounding; empty if x > y.
 vec2 near_region_interval(vec3 origin, vec3 direction, float size) {
     float t0 = -uintBitsToFloat(0x7F800000u);
     float t1 = uintBitsToFloat(0x7F800000u);
@@ -44,7 +44,7 @@ vec2 near_region_interval(vec3 origin, vec3 direction, float size) {
     return vec2(t0 - slack, t1 + slack);
 }
 
-// The smallest crossing of the planes x=+-y, y=+-z, z=+-x after t.
+// Returns the smallest crossing of the planes x=+-y, y=+-z, z=+-x after t.
 float segment_crossing_after(vec3 o, vec3 d, float t) {
     float next = uintBitsToFloat(0x7F800000u);
     for (int i = 0; i < 3; i++) {
@@ -58,7 +58,8 @@ float segment_crossing_after(vec3 o, vec3 d, float t) {
     return next;
 }
 
-// The segment that begins at t. origin is relative to the eye; `near` is the ray's t interval in the near region.
+// Returns the segment that begins at t. origin is relative to the eye; `near` is the ray's t interval in the
+// near region.
 Segment segment_at(vec3 origin, vec3 direction, float t, float t_max, vec2 near) {
     Segment segment;
     segment.t_begin = t;

@@ -22,7 +22,7 @@ struct GridMarch {
     uint neighbours;      // bits of 3x3x3 cells around `cell` that are still to be visited as well
 };
 
-// Bits of the neighbours whose boundary the point at t touches within rounding.
+// Returns bits of the neighbours whose boundary the point at t touches within rounding.
 uint grid_touched(GridMarch m, float t, int skip_axis) {
     ivec3 side = ivec3(0);
     float largest = max(max(abs(m.origin.x), abs(m.origin.y)), abs(m.origin.z));
@@ -45,8 +45,8 @@ uint grid_touched(GridMarch m, float t, int skip_axis) {
     return bits;
 }
 
-// Bound of the error of t where the ray crosses a boundary across `axis`; -1: not a boundary but the end of the
-// traversal.
+// Returns a bound of the error of t at the ray's crossing of a boundary across `axis`; -1 means the end of
+// the traversal, which is not a boundary.
 float grid_crossing_error(GridMarch m, float t, int axis) {
     float d = axis >= 0 ? abs(m.inverse[axis]) * abs(m.origin[axis]) : 0.0;
     return 6.0e-8 * (8.0 * abs(t) + 2.0 * d);
@@ -76,7 +76,7 @@ void grid_find_exit(inout GridMarch m) {
     }
 }
 
-// Starts a traversal of [t_begin, t_end]; false where the ray does not intersect the grid.
+// Starts a traversal of [t_begin, t_end]; false if the ray does not intersect the grid.
 bool grid_begin(vec3 origin, vec3 direction, ivec3 size, float t_begin, float t_end, out GridMarch m) {
     m.origin = origin;
     m.direction = direction;

@@ -22,10 +22,11 @@ bool grid_touches_block(GridMarch m, ivec3 first, ivec3 last, vec3 p, float guar
     return false;
 }
 
-// Advances a traversal whose neighbours are all taken to the cell behind the block of 2^level cells along a side that
-// contains its cell; or it has `ended`, where its end lies in the block. False, with nothing changed, where one step leads out of
-// the block, and where the ray touches cells beside the block on its way, or an edge where it exits, within rounding: then a
-// traversal without skips visits these, or rounding decides where it goes on.
+// Advances a traversal whose neighbours are all taken to the cell behind the block of 2^level cells along a
+// side that contains its cell; sets `ended` if the traversal ends in the block. Returns false, with nothing
+// changed, if one step leads out of the block, or if the ray touches, within rounding, cells beside the block
+// on its way or an edge at its exit: a traversal without skips visits these cells, or rounding decides where
+// it goes on.
 bool grid_take_skip_exactly(inout GridMarch m, uint level, out bool ended) {
     ended = false;
     if (level == 0u || m.step_axis < 0) {
@@ -38,7 +39,7 @@ bool grid_take_skip_exactly(inout GridMarch m, uint level, out bool ended) {
     if (stepped < first[m.step_axis] || stepped > last[m.step_axis]) {
         return false;
     }
-    // The boundary by which the ray exits, by the expression of grid_find_exit.
+    // The boundary by which the ray exits is found by the expression of grid_find_exit.
     float t = m.t_end;
     int exit_axis = -1;
     for (int axis = 0; axis < 3; axis++) {
@@ -51,7 +52,7 @@ bool grid_take_skip_exactly(inout GridMarch m, uint level, out bool ended) {
             }
         }
     }
-    // The cell from which it exits, and where it enters that.
+    // These are the cell from which the ray exits, and its entry into that cell.
     vec3 p_out = m.origin + t * m.direction;
     ivec3 left = ivec3(floor(p_out));
     if (exit_axis >= 0) {
@@ -73,7 +74,7 @@ bool grid_take_skip_exactly(inout GridMarch m, uint level, out bool ended) {
             error = max(error, grid_crossing_error(m, max(abs(t), abs(m.t_out)), axis));
         }
     }
-    // Twice the guard of grid_touched, with the largest error of all crossings up to there.
+    // The guard is twice that of grid_touched, with the largest error of all crossings up to the exit.
     float largest = max(max(abs(m.origin.x), abs(m.origin.y)), abs(m.origin.z));
     float speed = max(max(abs(m.direction.x), abs(m.direction.y)), abs(m.direction.z));
     float guard = 2.0 * (9.6e-7 * (largest + max(abs(t), abs(m.t_out)) * speed) + 2.0 * error * speed);

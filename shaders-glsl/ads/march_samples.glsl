@@ -21,14 +21,15 @@ struct SampleMarch {
     float offset;         // of a sample within its step, as a fraction of the step
 };
 
-// The jitter of a ray, a fraction of a step in [0, 1): a hash of its bits.
+// Returns the jitter of a ray, a fraction of a step in [0, 1): a hash of the ray's bits.
 float samples_jitter(vec3 origin, vec3 direction) {
     uvec3 words = random_words(uvec4(floatBitsToUint(origin), 0u)).xyz;
     return random_unit(random_words(uvec4(words ^ floatBitsToUint(direction), 1u)).x);
 }
 
-// origin and direction are in face space; the segment lies in the face's pyramid. `jitter` places the samples within
-// steps that are longer than a cell; in shorter ones they are in the middle.
+// Begins a march; origin and direction are in face space, and the segment lies in the face's pyramid.
+// `jitter` places the samples within steps that are longer than a cell; in shorter steps they are in the
+// middle.
 SampleMarch samples_begin(vec3 origin, vec3 direction, uint resolution, float t_begin, float t_end, uint samples, float jitter) {
     SampleMarch m;
     vec3 p = origin + t_begin * direction;
@@ -42,21 +43,21 @@ SampleMarch samples_begin(vec3 origin, vec3 direction, uint resolution, float t_
     m.t_end = t_end;
     m.resolution = resolution;
     vec2 span = abs(m.place_end - m.place_begin);
-    // A step is one cell along the longer axis, or longer where the number of samples would not suffice.
+    // A step is one cell along the longer axis, or longer if the number of samples would not be enough.
     float cells = ceil(max(span.x, span.y));
     m.count = uint(clamp(cells, 1.0, float(samples)));
     m.offset = cells > float(samples) ? jitter : 0.5;
     return m;
 }
 
-// t at a fraction of the segment's length on the screen.
+// Returns t at a fraction of the segment's length on the screen.
 float samples_t(SampleMarch m, float share) {
     float near_weight = (1.0 - share) * m.z_end;
     float far_weight = share * m.z_begin;
     return (m.t_begin * near_weight + m.t_end * far_weight) / (near_weight + far_weight);
 }
 
-// The cell of sample `i` and the t its step spans.
+// Returns the cell of sample `i` and the t interval of its step.
 void samples_cell(SampleMarch m, uint i, out ivec2 cell, out float t_in, out float t_out) {
     float step_share = 1.0 / float(m.count);
     vec2 place = mix(m.place_begin, m.place_end, (float(i) + m.offset) * step_share);

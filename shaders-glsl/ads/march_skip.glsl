@@ -9,7 +9,7 @@
 
 #include "ads/march_cells.glsl"
 
-// Cells from `first` to `last`, which include the current one, and where the ray exits them.
+// Skip over the cells from `first` to `last`, which include the current one, and the ray's exit from them.
 struct MarchSkip {
     ivec2 first;
     ivec2 last;
@@ -19,7 +19,7 @@ struct MarchSkip {
     bool step_y;
 };
 
-// A skip over the current cell alone.
+// Returns a skip over the current cell alone.
 MarchSkip march_skip_of_one(CellMarch m) {
     return MarchSkip(m.cell, m.cell, m.t_out, m.error_out, m.step_x, m.step_y);
 }
@@ -43,14 +43,14 @@ MarchSkip march_skip_over(CellMarch m, ivec2 first, ivec2 last) {
     return MarchSkip(first, last, max(t, m.t_in), error_out, step_x, step_y);
 }
 
-// A skip over the block of 2^level cells along a side that contains the current cell; blocks are counted from the
-// border on.
+// Returns a skip over the block of 2^level cells along a side that contains the current cell; blocks are
+// counted from the border on.
 MarchSkip march_skip_over_block(CellMarch m, uint level) {
     ivec2 first = ((m.cell + 1) >> int(level) << int(level)) - 1;
     return march_skip_over(m, first, min(first + (1 << int(level)) - 1, ivec2(m.resolution)));
 }
 
-// The cell that a ray enters where it exits a block, or in which it ends, within rounding.
+// Returns the cell that a ray enters at its exit from a block, or in which it ends, within rounding.
 ivec2 march_skip_to(CellMarch m, MarchSkip skip) {
     bvec2 up = greaterThan(m.step_direction, ivec2(0));
     ivec2 cell = mix(march_cell_at(m.origin, m.direction, skip.t_out, m.resolution), m.cell, equal(m.step_direction,
@@ -59,19 +59,20 @@ ivec2 march_skip_to(CellMarch m, MarchSkip skip) {
     return ivec2(skip.step_x ? over.x : cell.x, skip.step_y ? over.y : cell.y);
 }
 
-// The cell of a block in which a segment ends that does not exit the block; the cell beyond a boundary where rounding
-// allows that it was crossed.
+// Returns the cell in which a segment ends that does not exit the block; the cell beyond a boundary if
+// rounding allows that it was crossed.
 ivec2 march_skip_end(CellMarch m, MarchSkip skip) {
     CellMarch last = m;
     last.cell = clamp(march_skip_to(m, skip), skip.first, skip.last);
     uint touched = march_touched(last, skip.t_out, skip.error_out, true, true);
-    // Bits of the cells in other columns, and in other rows.
+    // These bits are those of the cells in other columns, and in other rows.
     ivec2 farther = ivec2((touched & 0x16Du) != 0u ? 1 : 0, (touched & 0x1C7u) != 0u ? 1 : 0);
     return clamp(last.cell + farther * m.step_direction, skip.first, skip.last);
 }
 
-// Bound of the errors of all t at which a traversal crosses boundaries up to a cell; `t` is the largest of them. The
-// error at a boundary between two others is no larger than theirs. Infinite where the ray runs along a boundary.
+// Returns a bound of the errors of all t at which a traversal crosses boundaries up to a cell; `t` is the
+// largest of them. The error at a boundary between two others is no larger than theirs. The bound is infinite
+// if the ray runs along a boundary.
 float march_skip_error(CellMarch m, ivec2 cell, float t) {
     float error = 0.0;
     for (int axis = 0; axis < 2; axis++) {
@@ -113,13 +114,13 @@ bool march_take_skip_exactly(inout CellMarch m, MarchSkip skip) {
     return true;
 }
 
-// Advances to the cell behind the block; false where the segment ends in it.
+// Advances to the cell behind the block; false if the segment ends in the block.
 bool march_take_skip(inout CellMarch m, MarchSkip skip) {
     if (!skip.step_x && !skip.step_y) {
         return false;
     }
     ivec2 cell = march_skip_to(m, skip);
-    // Never back, and not beyond the block.
+    // The cell is never before the current one, and not beyond the block.
     bvec2 up = greaterThan(m.step_direction, ivec2(0));
     ivec2 inside = clamp(cell, mix(skip.first, m.cell, up), mix(m.cell, skip.last, up));
     m.cell = ivec2(skip.step_x ? cell.x : inside.x, skip.step_y ? cell.y : inside.y);

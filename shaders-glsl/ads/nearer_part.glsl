@@ -9,8 +9,8 @@
 #include "contract/stored_hit.glsl"
 #include "ads/evaluate_plane.glsl"
 
-// The nearer of a hit in the parts that were traced before and one in the part that is bound, both by ids; the first is
-// marked as what it is where it is stored.
+// Returns the nearer of a hit in the parts that were traced before and a hit in the bound part, both by ids.
+// The former is marked if it is a stored fragment.
 Hit nearer_part(Hit before, Hit hit) {
     bool was_stored = stored_hit_is(before);
     if (was_stored) {

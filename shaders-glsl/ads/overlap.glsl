@@ -15,7 +15,8 @@ bool overlap_beyond(vec3 x, vec3 z, float lower, float upper) {
     return all(lessThan(x, at_lower)) || all(greaterThan(x, at_upper));
 }
 
-// The plane through the eye and the edge pq, and a bound of the rounding of its value anywhere in the face.
+// Returns the plane through the eye and the edge pq, and a bound of the rounding of its value anywhere in the
+// face.
 vec3 overlap_edge(vec3 p, vec3 q, out float slack) {
     precise vec3 span = q - p;
     precise vec3 edge = p.yzx * span.zxy - p.zxy * span.yzx;
@@ -27,7 +28,7 @@ vec3 overlap_edge(vec3 p, vec3 q, out float slack) {
     return edge;
 }
 
-// Values of a triangle that the tests against all cells of a face share.
+// Values of a triangle that its tests against all cells of a face share.
 struct Overlap {
     vec3 x;               // of the corners, face space
     vec3 y;
@@ -42,7 +43,7 @@ struct Overlap {
     float facing_error;
 };
 
-// a, b, c in face space.
+// Begins the tests of a triangle; a, b, c are in face space.
 Overlap overlap_begin(vec3 a, vec3 b, vec3 c) {
     Overlap o;
     o.x = vec3(a.x, b.x, c.x);
@@ -64,7 +65,7 @@ Overlap overlap_begin(vec3 a, vec3 b, vec3 c) {
     return o;
 }
 
-// Value of an edge's plane at the cell's centre, and how much larger or smaller it is elsewhere in the cell.
+// Returns the value of an edge's plane at the cell's centre, and a bound of its change elsewhere in the cell.
 float overlap_edge_at(vec3 edge, vec3 center, float half_side, float rounding, out float slack) {
     precise float value = edge.x * center.x + edge.y * center.y + edge.z;
     precise float reach = half_side * (abs(edge.x) + abs(edge.y)) + rounding;
@@ -72,9 +73,10 @@ float overlap_edge_at(vec3 edge, vec3 center, float half_side, float rounding, o
     return value;
 }
 
-// True where the triangle reaches, in front of the eye, into the square of cells with this centre (x/z, y/z, 1) and
-// half side. depths holds its smallest and largest depth there, without the rounding of its corners, and at least half
-// of near_size. Every step is precise: passes that count and passes that store must decide alike.
+// True if the triangle reaches, in front of the eye, into the square of cells with this centre (x/z, y/z, 1)
+// and half side. depths receives its smallest and largest depth there, without the rounding of its corners,
+// and at least half of near_size. Every step is precise, since passes that count and passes that store must
+// decide alike.
 bool overlap_at(float near_size, Overlap o, vec3 center, float half_side, out vec2 depths) {
     depths = vec2(0.0);
     precise vec2 lower = center.xy - half_side;
@@ -87,15 +89,15 @@ bool overlap_at(float near_size, Overlap o, vec3 center, float half_side, out ve
     vec3 value = vec3(overlap_edge_at(o.edge_ab, center, half_side, o.edge_slack.x, slack.x),
         overlap_edge_at(o.edge_bc, center, half_side, o.edge_slack.y, slack.y),
         overlap_edge_at(o.edge_ca, center, half_side, o.edge_slack.z, slack.z));
-    // Comparisons are written so that what overflowed counts as inside.
+    // Comparisons are written so that a value that overflowed counts as inside.
     bool front = !any(lessThan(value, -slack));
     bool back = !any(greaterThan(value, slack));
     if (!front && !back) {
         return false;
     }
     depths = vec2(min(o.z.x, min(o.z.y, o.z.z)), max(o.z.x, max(o.z.y, o.z.z)));
-    // Close to edge-on neither the winding nor the plane is certain: then both windings count, and the
-    // depths are those of the corners.
+    // Close to edge-on neither the winding nor the plane is certain: both windings count then, and the depths
+    // are those of the corners.
     if (abs(o.facing) > 64.0 * o.facing_error) {
         if (o.facing > 0.0 ? !front : !back) {
             return false;

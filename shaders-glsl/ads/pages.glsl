@@ -19,20 +19,22 @@
 #define PAGE_TRIES 64u
 #endif
 
-// The first used slot of the page that a word leads to, counted over all pages; valid where the word is not 0.
+// Returns the first used slot of the page that a word leads to, counted over all pages; valid if the word is
+// not 0.
 uint page_first_slot(PageRef s, uint word) {
     return ((word >> 4) - 1u) * PAGE_SIZE + PAGE_SIZE - (word & 15u);
 }
 
-// Lets a page lead to the next one, where it exists. A function of its own because the shader compiler does
-// not end where `precise` values depend on memory that is written from a local variable.
+// Links a page to the next one, if the page exists. It is a function of its own because the shader compiler
+// does not end if `precise` values depend on memory that is written from a local variable.
 void page_set_next(PageRef s, uint page, uint word) {
     if (page < PAGE_CAPACITY(s)) {
         PAGE_NEXT(s, page) = word;
     }
 }
 
-// Takes a slot for an entry of a list, counted over all pages. It may lie past the last page that exists.
+// Takes a slot for an entry of a list, counted over all pages. The slot may lie past the last page that
+// exists.
 uint page_take_slot(PageRef s, uint list) {
     uint word = PAGE_LIST(s, list);
     for (uint i = 0u; i < PAGE_TRIES && word != 0u && (word & 15u) < PAGE_SIZE; i++) {
@@ -48,17 +50,18 @@ uint page_take_slot(PageRef s, uint list) {
     return page_first_slot(s, mine);
 }
 
-// Link of the first used slot of the page that a word leads to: its number + 1; 0 at the end of a list.
+// Returns the link of the first used slot of the page that a word leads to: its number + 1; 0 at the end of a
+// list.
 uint page_link(PageRef s, uint word) {
     return word >> 4 == 0u ? 0u : page_first_slot(s, word) + 1u;
 }
 
-// Link of the first used slot of the page behind that of a link.
+// Returns the link of the first used slot of the page after that of a link.
 uint page_link_of_next(PageRef s, uint link) {
     return page_link(s, PAGE_NEXT(s, (link - 1u) / PAGE_SIZE));
 }
 
-// Link of the slot behind that of a link, in its page or in the next one.
+// Returns the link of the slot after that of a link, in its page or in the next one.
 uint page_link_behind(PageRef s, uint link) {
     return link % PAGE_SIZE == 0u ? page_link_of_next(s, link) : link + 1u;
 }

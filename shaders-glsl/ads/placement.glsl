@@ -11,18 +11,19 @@ float largest_axis(vec3 v) {
     return max(v.x, max(v.y, v.z));
 }
 
-// Maximum distance of a box from the origin along an axis.
+// Returns the maximum distance of a box from the origin along an axis.
 float box_reach(vec3 lower, vec3 upper) {
     return max(largest_axis(abs(lower)), largest_axis(abs(upper)));
 }
 
-// The centre of faces for an eye and geometry within bounds: the eye itself within them, or where they are flat; else the
-// point of about their inner half that is nearest to it, as far back towards the eye as rays from there need.
-// From an eye outside, all geometry lies in a part of the faces: the farther away the eye, the fewer tiles.
+// Returns the centre of faces for an eye and geometry within bounds: the eye itself if it is within them or
+// if they are flat; otherwise the point of about their inner half that is nearest to the eye, moved back
+// towards it as far as rays from there need. From an eye outside, all geometry lies in a part of the faces:
+// the farther away the eye, the fewer tiles.
 vec3 centre_within(vec3 eye, vec3 lower, vec3 upper) {
     precise vec3 extent = upper - lower;
     float longest = largest_axis(extent);
-    // Sides whose length overflows leave the eye where it is.
+    // If the length of a side overflows, the centre is the eye.
     bool has_inside = all(greaterThan(extent, vec3(PLACEMENT_FLATTEST * longest))) && longest <= PLACEMENT_LONGEST;
     bool is_inside = all(lessThanEqual(lower, eye)) && all(lessThanEqual(eye, upper));
     if (is_inside || !has_inside) {
@@ -40,20 +41,20 @@ vec3 centre_within(vec3 eye, vec3 lower, vec3 upper) {
     return centre;
 }
 
-// The centre of faces for geometry within bounds, wherever the eye is: about their middle, and beside bounds that are flat,
-// as far as half their longest side.
+// Returns the centre of faces for geometry within bounds, wherever the eye is: about the middle of the
+// bounds, and for flat bounds beside them, at a distance of half their longest side.
 vec3 centre_of_bounds(vec3 lower, vec3 upper) {
     precise vec3 extent = upper - lower;
     float longest = largest_axis(extent);
     precise vec3 middle = (1.0 - PLACEMENT_MIDDLE) * lower + PLACEMENT_MIDDLE * upper;
     precise vec3 beside = upper + 0.5 * longest;
-    // Sides whose length overflows count as thick.
+    // A side whose length overflows counts as thick.
     bvec3 is_flat = lessThan(extent, vec3(longest <= PLACEMENT_LONGEST ? PLACEMENT_FLATTEST * longest : 0.0));
     return mix(middle, beside, is_flat);
 }
 
-// Lower corner (xyz) and side (w) of a cube that holds the bounds, a little wider than their longest side, so that no side
-// of the geometry lies on a side of the cube.
+// Returns the lower corner (xyz) and side (w) of a cube that holds the bounds, a little wider than their
+// longest side, so that no side of the geometry lies on a side of the cube.
 vec4 cube_placement(vec3 lower, vec3 upper) {
     precise float widened = max(largest_axis(upper - lower) * PLACEMENT_WIDENED, PLACEMENT_SMALLEST);
     // Rounding must not move the corner into the geometry, and may move it away from the far end.
@@ -62,7 +63,7 @@ vec4 cube_placement(vec3 lower, vec3 upper) {
     return vec4(corner, uintBitsToFloat(floatBitsToUint(rounded) + 1u));
 }
 
-// Cells of one box along the axes of the world: what ads/box_cells.glsl works on.
+// Cells of one box along the axes of the world, as ads/box_cells.glsl uses them.
 struct BoxPlacement {
     vec3 centre;          // middle of the bounds
     float reach;          // half the longest side of the bounds; more where rays start far away
@@ -71,10 +72,11 @@ struct BoxPlacement {
     vec3 per_metre;       // cells
 };
 
-// This number of cells along each axis, 1 or more, over the bounds, for rays from around the eye and from everywhere within
-// the bounds around them: those of the whole geometry where the cells are of a part.
-// The cells reach PLACEMENT_BELOW margins below the bounds and PLACEMENT_ABOVE above: sides lie well within a cell then, and so
-// does the middle. Without thickness, and cut into 4 cells, the bounds are in the middle of the second.
+// Places this number of cells along each axis, 1 or more, over the bounds, for rays from around the eye and
+// from everywhere within the bounds around them: those of the whole geometry if the cells are of a part. The
+// cells reach PLACEMENT_BELOW margins below the bounds and PLACEMENT_ABOVE above, so that the sides lie well
+// within a cell, and so does the middle. Bounds without thickness, cut into 4 cells, are in the middle of the
+// second.
 BoxPlacement box_placement(vec3 lower, vec3 upper, vec3 around_lower, vec3 around_upper, uvec3 cells, vec3 eye) {
     precise vec3 centre = 0.5 * lower + 0.5 * upper;
     precise vec3 first = lower - centre;
@@ -85,11 +87,11 @@ BoxPlacement box_placement(vec3 lower, vec3 upper, vec3 around_lower, vec3 aroun
     float away = max(largest_axis(abs(eye_offset)), box_reach(around_first, around_last));
     float own = max(box_reach(first, last), PLACEMENT_SMALLEST);
     float most = float(max(cells.x, max(cells.y, cells.z)));
-    // Margins for distant rays are no wider than a share of a cell.
+    // Margins for distant rays are limited to a share of a cell.
     precise float limit = (2.0 * PLACEMENT_WIDEST_MARGIN / CELL_ROUNDING) * own / most;
     float reach = max(min(away / PLACEMENT_EYE_LIMIT, limit), own);
     precise float rounding = CELL_ROUNDING * reach;
-    // Halves, so that they stay within the range of numbers.
+    // Halves keep the values within the range of numbers.
     precise vec3 half_extent = 0.5 * last - 0.5 * first + 0.5 * (PLACEMENT_BELOW + PLACEMENT_ABOVE) * rounding;
     precise vec3 per_metre = 0.5 * vec3(cells) / half_extent;
     precise vec3 corner = first - PLACEMENT_BELOW * rounding;

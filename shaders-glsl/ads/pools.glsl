@@ -24,16 +24,16 @@
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) POOL_ACCESS buffer WordAddress { uint words[]; };
 
-// Addresses of a structure. Unused with descriptors.
+// Declares the addresses of a structure, which are unused with descriptors.
 #define STRUCTURE_HEADER(Name, name) \
     struct Name##Ref { uvec2 header; }; \
     layout(buffer_reference, scalar, buffer_reference_align = 4) POOL_ACCESS buffer Name##HeaderAddress { Name##Header header; };
-// A pool of words.
+// Declares a pool of words.
 #define POOL_WORDS(name, pool, place)
-// A pool of records.
+// Declares a pool of records.
 #define POOL_RECORDS(name, view, place, Record) \
     layout(buffer_reference, scalar, buffer_reference_align = 4) buffer name##_##view##_address { Record elements[]; };
-// A pool of records that is read as vectors of so many bytes.
+// Declares a pool of records that is read as vectors of that many bytes.
 #define POOL_VECTORS(name, view, place, Vector, bytes) \
     layout(buffer_reference, scalar, buffer_reference_align = bytes) readonly buffer name##_##view##_address { Vector elements[]; };
 

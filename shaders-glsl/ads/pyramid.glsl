@@ -12,11 +12,11 @@
 #ifndef ADS_PYRAMID_GLSL
 #define ADS_PYRAMID_GLSL
 
-// Words of a block: the complement of the smallest depth's bits, and those of the largest; both 0 where the block is
-// empty.
+// Number of words of a block: the complement of the smallest depth's bits, and the bits of the largest; both
+// are 0 if the block is empty.
 #define PYRAMID_WORDS 2u
 
-// Level k has blocks of 2^k cells along a side, the border included.
+// Level k of a pyramid, whose blocks have 2^k cells along a side, the border included.
 struct PyramidLevel {
     uint level;
     uint side;            // blocks along a side of a view
@@ -24,7 +24,7 @@ struct PyramidLevel {
     uint base;            // word of its first block
 };
 
-// Level 1 over views of `cells` cells along a side, border included.
+// Returns level 1 over views of `cells` cells along a side, border included.
 PyramidLevel pyramid_first(uint cells, uint views, uint base) {
     return PyramidLevel(1u, (cells + 1u) >> 1, views, base);
 }
@@ -34,14 +34,14 @@ PyramidLevel pyramid_above(PyramidLevel below) {
     return PyramidLevel(below.level + 1u, (below.side + 1u) >> 1, below.views, below.base + words);
 }
 
-// The level below, of a pyramid over views of `cells` cells along a side; level 1 has none.
+// Returns the level below, of a pyramid over views of `cells` cells along a side; level 1 has none.
 PyramidLevel pyramid_below(PyramidLevel above, uint cells) {
     uint level = above.level - 1u;
     uint side = (cells + (1u << level) - 1u) >> level;
     return PyramidLevel(level, side, above.views, above.base - PYRAMID_WORDS * above.views * side * side);
 }
 
-// The level with one block per view.
+// Returns the level with one block per view.
 PyramidLevel pyramid_top(PyramidLevel level) {
     while (level.side > 1u) {
         level = pyramid_above(level);
@@ -49,7 +49,7 @@ PyramidLevel pyramid_top(PyramidLevel level) {
     return level;
 }
 
-// The word behind all levels.
+// Returns the word behind all levels.
 uint pyramid_end(PyramidLevel level) {
     level = pyramid_top(level);
     return level.base + PYRAMID_WORDS * level.views;
@@ -59,13 +59,13 @@ uint pyramid_word(PyramidLevel level, uint view, uvec2 block) {
     return level.base + PYRAMID_WORDS * ((view * level.side + block.y) * level.side + block.x);
 }
 
-// The block around a cell.
+// Returns the block around a cell.
 uvec2 pyramid_block(PyramidLevel level, ivec2 cell) {
     return uvec2(cell + 1) >> level.level;
 }
 
-// True if a block with these words holds nothing from depths.x to depths.y. Comparisons with NaN are false:
-// then it does.
+// True if a block with these words holds nothing from depths.x to depths.y. It is false for NaN, since
+// comparisons with NaN are false.
 bool pyramid_leaves_out(uvec2 words, vec2 depths) {
     return words.y == 0u || depths.y < uintBitsToFloat(~words.x) || depths.x > uintBitsToFloat(words.y);
 }

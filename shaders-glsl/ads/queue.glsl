@@ -68,26 +68,27 @@ layout(set = QUEUE_SET, binding = 2, scalar) buffer QueueHitBuffer {
 layout(set = QUEUE_SET, binding = 3, scalar) buffer QueueStateBuffer {
     TraceState queue_states[];
 };
-// Lists of `capacity` slots: two of rays that paused, between which rounds alternate; where slots can be selected, two
-// of these, between which takes alternate.
+// Lists of `capacity` slots: two lists of paused rays, between which rounds alternate, and two of selected
+// slots, if slots can be selected, between which takes alternate.
 layout(set = QUEUE_SET, binding = 4, scalar) buffer QueueListBuffer {
     uint queue_list[];
 };
 layout(set = QUEUE_SET, binding = 5, scalar) buffer QueueSurfaceBuffer {
     Surface queue_surfaces[];
 };
-// One per slot where work is counted per ray, else a placeholder.
+// Work of each slot, if work is counted per ray, otherwise a placeholder.
 layout(set = QUEUE_SET, binding = 6, scalar) buffer QueueWorkBuffer {
     RayWork queue_work[];
 };
-// The steps of one slot; a placeholder with capacity 0 unless requested.
+// Steps of one slot; a placeholder with capacity 0 unless requested.
 layout(set = QUEUE_SET, binding = 7, scalar) buffer QueueStepBuffer {
     uint queue_logged_slot;
     uint queue_step_demand;   // steps taken, also those that did not fit
     TraceStep queue_steps[];
 };
 
-// Starts, in the lists of a queue, of a list of paused rays and of one of selected slots; each alternates between two.
+// Returns the start, in the lists of a queue, of a list of paused rays or of selected slots; each alternates
+// between two.
 uint queue_paused_at(uint round, uint capacity) {
     return (round & 1u) * capacity;
 }
@@ -96,8 +97,8 @@ uint queue_selected_at(uint take, uint capacity) {
     return (2u + (take & 1u)) * capacity;
 }
 
-// The slot of one invocation of a pass over `domain`: the number of first slots, or DOMAIN_SELECTED. False where there is
-// none.
+// Returns the slot of one invocation of a pass over `domain`: the number of first slots, or DOMAIN_SELECTED.
+// False if there is none.
 bool queue_slot(uint domain, uint invocation, out uint slot) {
     slot = invocation;
     if (domain != DOMAIN_SELECTED) {

@@ -13,13 +13,14 @@
 // True if this invocation's slot is the logged one. Evaluated once per ray, since structures log in many places.
 bool trace_log_on = false;
 
-// Counts of this dispatch: views entered, and cells visited that were not rejected. A cell is rejected where nothing of what
-// it holds is read: it is empty, or its bounds, buckets or mask say that the ray misses all of it.
+// Counts of this dispatch: views entered, and cells visited that were not rejected. A cell is rejected if
+// nothing of its contents is read: it is empty, or its bounds, buckets or mask tell that the ray misses
+// everything in it.
 uint trace_log_views = 0u;
 uint trace_log_searched = 0u;
-// 1: a cell was visited, and nothing of what it holds has been read yet.
+// Flag that is 1 after a cell was visited, until anything in it is read.
 uint trace_log_unread = 0u;
-// One more than the view entered last; 0 before the first.
+// Number of the view entered last plus one; 0 before the first.
 uint trace_log_view = 0u;
 
 // Place of the first step of this dispatch.
@@ -32,7 +33,8 @@ void trace_log_begin(uint slot) {
     }
 }
 
-// Steps name triangles by the numbers that they have in a part. Here, once for all of a dispatch, they get their ids.
+// Converts triangle numbers of the logged steps to ids. Steps refer to triangles by their numbers in a part,
+// and are converted once for a whole dispatch.
 void trace_log_end() {
     if (COUNTERS >= COUNTERS_STEPS && trace_log_on) {
         uint end = min(queue_step_demand, uint(queue_steps.length()));
@@ -45,7 +47,7 @@ void trace_log_end() {
     }
 }
 
-// The kind is a constant wherever steps are logged, so that little of this is left.
+// Counts a step. The kind is a constant wherever steps are logged, so that little of this code remains.
 void trace_log_count(uint kind, uint a) {
     bool reads = kind == STEP_ENTRY || kind == STEP_OCCUPIED;
     // A segment may end and the next one begin in the same view.

@@ -22,7 +22,8 @@ layout(push_constant, scalar) uniform QueueMeetConstants {
     uint part;            // whose status it is
 } pushed;
 
-// Margin by which a ray may pass by the bounds of a triangle that it is tested to hit: 64 units of rounding of its way.
+// Margin by which a ray may pass the bounds of a triangle that it is tested to hit: 64 units of rounding of
+// its length.
 #define MEET_MARGIN 0.0000038146973
 
 bool meets_bounds(Ray ray, float t_max) {
@@ -46,7 +47,7 @@ void main() {
         return;
     }
     Ray ray = queue_ray(slot);
-    // A part that is not ready answers nothing to any ray.
+    // A part that is not ready gives no ray an answer.
     bool is_ready = geometry_is_built(part_status[pushed.part]);
     if (!ray_is_valid(ray) || (is_ready && !meets_bounds(ray, before.t))) {
         return;

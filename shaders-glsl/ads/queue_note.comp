@@ -8,6 +8,6 @@ layout(local_size_x = 1) in;
 
 void main() {
     uint sum = queue_header.corrupted_before + queue_header.corrupted;
-    // A sum that does not fit is still a fault.
+    // A sum that overflows still counts as a fault.
     queue_header.corrupted_before = sum < queue_header.corrupted ? 0xFFFFFFFFu : sum;
 }

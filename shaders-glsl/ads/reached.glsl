@@ -7,13 +7,13 @@
 
 #include "ads/axis_views.glsl"
 
-// The word of a triangle that may be hit at any depth of its cell, because rounding leaves open how its plane lies. The
-// lowest of all: such triangles are first in sorted lists.
+// Word of a triangle that may be hit at any depth of its cell, because rounding leaves the place of its plane
+// open. It is the lowest of all words, so that such triangles are first in sorted lists.
 #define REACHED_ANY_DEPTH 0.0
 
-// The middle of the depths that a triangle has in a cell that it reaches into, and half their span in `span`; of all its
-// depths where rounding leaves those open. a, b, c in the frame of a view, which the triangle faces most. Precise: all
-// builders store the same.
+// Returns the middle of the depths that a triangle has in a cell that it reaches into, and half their span in
+// `span`; of all its depths if rounding leaves those in the cell open. a, b, c are in the frame of a view,
+// which the triangle faces most. It is precise, since all builders store equal values.
 float reached_depth(AxisView view, vec3 a, vec3 b, vec3 c, ivec2 cell, out float span) {
     float nearest = min(a.z, min(b.z, c.z));
     float farthest = max(a.z, max(b.z, c.z));
@@ -31,8 +31,8 @@ float reached_depth(AxisView view, vec3 a, vec3 b, vec3 c, ivec2 cell, out float
     return middle;
 }
 
-// The word of a triangle with these depths: half the span is an eighth of a cell, a quarter, a half or all of one.
-// REACHED_ANY_DEPTH where it is more.
+// Returns the word of a triangle with these depths: half the span is an eighth of a cell, a quarter, a half
+// or all of one; REACHED_ANY_DEPTH if it is more.
 float reached_word(AxisView view, float middle, float span) {
     if (span > 1.001 * view.cell) {
         return REACHED_ANY_DEPTH;
@@ -42,7 +42,7 @@ float reached_word(AxisView view, float middle, float span) {
     return uintBitsToFloat((floatBitsToUint(max(middle, 1.0e-30)) & ~3u) | size);
 }
 
-// By how much less than a cell the depths of a word reach from their middle, as a share of a cell.
+// Returns how much less than a cell the depths of a word reach from their middle, as a share of a cell.
 float reached_less(float word) {
     return 1.0 - 0.125 * float(1u << (floatBitsToUint(word) & 3u));
 }

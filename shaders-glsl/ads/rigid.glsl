@@ -20,10 +20,11 @@ struct GeometryRigid {
     float error;          // how far rounding may move its corners, where it was built; infinite where there is no map
 };
 
-// Largest shift of a ray by rounding, over its distance from the part: 32 units, for mapping it and testing triangles.
+// Largest shift of a ray by rounding, over its distance from the part: 32 units, for mapping the ray and
+// testing triangles.
 #define RIGID_ROUNDING 0.0000019073486
 
-// The buffer of the header: the map is the first element behind the runs.
+// Buffer of the header, in which the map is the first element behind the runs.
 layout(set = GEOMETRY_SET, binding = 0, scalar) readonly buffer GeometryRigidBuffer {
     GeometryRigid geometry_rigids[];
 };
@@ -33,13 +34,14 @@ GeometryRigid rigid_map() {
     return geometry_rigids[(end + GEOMETRY_RIGID_BYTES - 1u) / GEOMETRY_RIGID_BYTES];
 }
 
-// Point in the space of the build of a posed point.
+// Transforms a posed point into the space of the build.
 vec3 rigid_point(GeometryRigid map, vec3 point) {
     vec3 from_centre = point - map.centre;
     return (map.x * from_centre.x + map.y * from_centre.y + map.z * from_centre.z) + map.offset;
 }
 
-// A ray where the structure was built, and how far it may be from where it should be, until it has left the part.
+// Transforms a ray into the space of the build, and returns the largest error of its place until it has left
+// the part.
 Ray rigid_ray(GeometryRigid map, Ray ray, out float spread) {
     vec3 away = abs(ray.origin - map.centre);
     ray.origin = rigid_point(map, ray.origin);

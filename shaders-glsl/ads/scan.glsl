@@ -19,7 +19,8 @@ const uint SCAN_ROWS = SCAN_THREADS / SCAN_ROW;
 shared uint scan_values[SCAN_THREADS];
 shared uint scan_rows[SCAN_ROWS];
 
-// The sum of `value` over all threads up to and including this one. Every thread of the group calls it.
+// Returns the sum of `value` over all threads up to and including this one. Every thread of the group calls
+// it.
 uint scan_inclusive(uint value) {
     uint thread = gl_LocalInvocationID.x;
     barrier();
@@ -44,7 +45,7 @@ uint scan_inclusive(uint value) {
     return sum;
 }
 
-// The sum over all threads, after scan_inclusive.
+// Returns the sum over all threads, after scan_inclusive.
 uint scan_total() {
     uint sum = 0u;
     for (uint row = 0u; row < SCAN_ROWS; row++) {

@@ -16,13 +16,13 @@
 
 #include "ads/constants.glsl"
 
-// Result of a step of the sorting of a list: it is done, it goes on, or a pass over the list has ended and another is
-// needed.
+// Result of a step of the sorting of a list: the list is sorted, the pass goes on, or a pass over the list
+// has ended and another is needed.
 #define SORT_DONE 0u
 #define SORT_MORE 1u
 #define SORT_PASSED 2u
 
-// One pass over a list that merges neighbouring runs.
+// Pass over a list that merges neighbouring runs.
 struct LinkedMerge {
     uint left;            // the rest of two runs that are being merged
     uint right;
@@ -51,7 +51,7 @@ void linked_merge_begin(uint head, inout LinkedMerge merge) {
     linked_merge_pair(head, merge);
 }
 
-// Moves the first node of one of the two runs behind what has been merged.
+// Moves the first node of one of the two runs behind the merged nodes.
 void linked_merge_take(StructureRef s, inout LinkedMerge merge) {
     bool take_left = merge.right_ended || (!merge.left_ended && linked_comes_first(s, merge.left, merge.right));
     uint taken = take_left ? merge.left : merge.right;
@@ -74,7 +74,7 @@ void linked_merge_take(StructureRef s, inout LinkedMerge merge) {
     merge.tail = taken;
 }
 
-// Nodes of a list; of a longer one than `limit` one more than that.
+// Counts the nodes of a list; gives `limit` + 1 for a longer one.
 uint linked_sort_count(StructureRef s, uint list, uint limit) {
     uint count = 0u;
     uint link = linked_head(s, list);
@@ -89,12 +89,13 @@ void linked_sort_begin(StructureRef s, uint list, inout LinkedMerge merge) {
     linked_merge_begin(linked_head(s, list), merge);
 }
 
-// Steps that suffice for a list: each pass finds the ends of runs and moves nodes, and halves the runs.
+// Returns a number of steps that is enough for a list: each pass finds the ends of runs and moves nodes, and
+// halves the runs.
 uint linked_sort_cost(uint count) {
     return count < 2u ? 0u : (uint(findMSB(count - 1u)) + 1u) * (2u * count + 2u);
 }
 
-// One step of the sorting of a list of two nodes and more. Between passes the list is whole.
+// Makes one step of the sorting of a list of two nodes and more. Between passes the list is whole.
 uint linked_sort_step(StructureRef s, uint list, inout LinkedMerge merge) {
     if (merge.finding) {
         uint next = linked_next(s, merge.at);
@@ -105,7 +106,7 @@ uint linked_sort_step(StructureRef s, uint list, inout LinkedMerge merge) {
         merge.finding = false;
         merge.right = next;
         merge.right_ended = next == 0u;
-        // A single run: the list is sorted, and its backward links are taken along.
+        // With a single run the list is sorted, and its backward links are renewed on the way.
         return merge.right_ended && merge.runs == 1u && !LINKED_DOUBLY ? SORT_DONE : SORT_MORE;
     }
     linked_merge_take(s, merge);
@@ -126,8 +127,8 @@ uint linked_sort_step(StructureRef s, uint list, inout LinkedMerge merge) {
     return SORT_PASSED;
 }
 
-// Sorts as far as `steps` go, with those that count the nodes, whole passes at a time. Lists of more than
-// `limit` nodes stay as they are. True once the list is sorted.
+// Sorts for at most `steps` steps, including those that count the nodes, in whole passes. Lists of more than
+// `limit` nodes stay unchanged. Returns true once the list is sorted.
 bool linked_sort(StructureRef s, uint list, uint limit, uint steps) {
     uint count = linked_sort_count(s, list, limit);
     if (count > limit || count < 2u) {
@@ -148,10 +149,9 @@ bool linked_sort(StructureRef s, uint list, uint limit, uint steps) {
     return false;
 }
 
-// Sorts the lists first, first + stride, ... that come before `end`, NODE_SORT_LISTS at most. The set of
-// those that stay as they are, by bits: they are longer than NODE_SORT_LIMIT, or NODE_SORT_STEPS do not
-// suffice for them in addition to those before. That follows from the numbers of nodes alone, in whatever order they
-// are.
+// Sorts the lists first, first + stride, ... that come before `end`, NODE_SORT_LISTS at most. Returns bits of
+// the lists that stay unchanged: lists longer than NODE_SORT_LIMIT, and lists for which NODE_SORT_STEPS is
+// not enough in addition to the lists before. The bits follow from the numbers of nodes alone, in any order.
 uint linked_sort_several(StructureRef s, uint first, uint stride, uint end) {
     uint waiting = 0u;
     uint left_over = 0u;
@@ -167,7 +167,7 @@ uint linked_sort_several(StructureRef s, uint first, uint stride, uint end) {
             left_over |= taken ? 0u : 1u << k;
         }
     }
-    // One loop for all of them, so that neighbours need not wait for each other's lists.
+    // There is one loop for all lists, so that neighbours need not wait for each other's lists.
     bool sorting = false;
     uint list = 0u;
     LinkedMerge merge;

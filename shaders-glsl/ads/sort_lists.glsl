@@ -33,7 +33,7 @@ void sort_store_long(StructureRef s, uint list) {
     }
 }
 
-// Sorts a list, or stores it in the table where it is too long for one dispatch.
+// Sorts a list, or stores it in the table if it is too long for one dispatch.
 void sort_list(StructureRef s, uint list) {
     uint length = sort_begin(s, list);
     uint progress = 0u;
@@ -43,7 +43,8 @@ void sort_list(StructureRef s, uint list) {
 }
 
 #ifdef SORT_LINKED
-// Sorts the linked lists of a thread, or stores them in the table. Neighbouring threads have neighbouring lists.
+// Sorts the linked lists of a thread, or stores them in the table. Neighbouring threads have neighbouring
+// lists.
 void sort_linked_lists(StructureRef s, uint first, uint stride) {
     uint left_over = linked_sort_several(s, first, stride, sort_list_count(s));
     while (left_over != 0u) {

@@ -11,7 +11,7 @@
 
 #define STORED_SINGLE_SIDED 0x10000u
 
-// The largest whole number that 15 bits hold.
+// Largest whole number that 15 bits hold.
 #define STORED_STEPS 16383.0
 
 uint stored_pack_normal(vec3 n, bool single_sided) {
@@ -36,7 +36,7 @@ bool stored_normal_is_passed(Ray ray, uint word) {
         && dot(stored_unpack_normal(word), ray.direction) > 0.0;
 }
 
-// True if these words are of a fragment that emits: its surface is that of triangle words.y.
+// True if these words are of a fragment that emits, whose surface is that of triangle words.y.
 bool stored_emits(uvec2 words) {
     return words.x >> 24 == 0u;
 }

@@ -7,7 +7,8 @@ layout(local_size_x = 64) in;
 
 layout(set = 0, binding = 0, scalar) readonly buffer ListBuffer { uint list_of_thread[]; };
 layout(set = 0, binding = 1, scalar) buffer SlotBuffer { uint slots[]; };
-// The number of pages taken, the words of the lists, and pages of a word and PAGE_SIZE entries: thread number + 1.
+// Buffer of the number of pages taken, the words of the lists, and pages of a word and PAGE_SIZE entries:
+// thread number + 1.
 layout(set = 0, binding = 2, scalar) buffer PageBuffer { uint words[]; };
 
 // Threads and pages. 16 bytes.

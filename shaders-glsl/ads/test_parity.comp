@@ -34,7 +34,7 @@ layout(push_constant, scalar) uniform ParityTestConstants {
     uint count;           // rays
 } pushed;
 
-// Far more pauses than a ray of a test takes. A ray that is still paused after them stores no answer.
+// Number of pauses after which a ray stores no answer, many more than a ray of a test takes.
 const uint MOST_PAUSES = 64u;
 
 void main() {

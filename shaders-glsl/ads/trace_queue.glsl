@@ -14,7 +14,7 @@
 #include "ads/nearer_part.glsl"
 #endif
 
-// True if a hit of the part that was traced before is only looked at once this part has its own.
+// True if a hit of the part that was traced before is only considered once this part has its own hit.
 bool trace_is_apart() {
 #ifdef STRUCTURE_STORES_FRAGMENTS
     return trace.part == PART_NEXT && trace.any_hit == 0u;
@@ -23,7 +23,7 @@ bool trace_is_apart() {
 #endif
 }
 
-// Stores the work of a ray so far, where the queue has a buffer for it.
+// Stores the work of a ray so far, if the queue has a buffer for it.
 void queue_store_work(uint slot, TraceState state) {
     if (COUNTERS < COUNTERS_PER_RAY || slot >= uint(queue_work.length())) {
         return;
@@ -47,8 +47,8 @@ void queue_store_work(uint slot, TraceState state) {
     queue_work[slot] = work;
 }
 
-// The state that a ray paused with. What its structure does not use of the cursor, and work where nobody counts it, is not
-// kept.
+// Restores the state with which a ray paused. Words of the cursor that its structure does not use, and work
+// that nobody counts, are not kept.
 TraceState queue_state(uint slot, Ray ray) {
     TraceState state = trace_state_begin(ray);
     state.best = queue_states[slot].best;
@@ -77,7 +77,7 @@ void queue_set_state(uint slot, TraceState state) {
     }
 }
 
-// The slot of this invocation; false where there is none.
+// Returns the slot of this invocation; false if there is none.
 bool trace_slot(uint invocation, out uint slot) {
     work_budget = trace.work_budget;
     if (queue_header.round == 0u) {
@@ -94,7 +94,8 @@ bool trace_slot(uint invocation, out uint slot) {
     return true;
 }
 
-// The state to trace a slot's ray from. False where another part was not ready, so that there is no answer.
+// Returns the state from which to trace a slot's ray; false if another part was not ready, so that there is
+// no answer.
 bool trace_begin(uint slot, Ray ray, out TraceState state) {
     state = trace_state_begin(ray);
     if (queue_header.round > 0u) {

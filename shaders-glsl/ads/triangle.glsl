@@ -6,10 +6,10 @@
 #ifndef ADS_TRIANGLE_GLSL
 #define ADS_TRIANGLE_GLSL
 
-// Quotients are only known to be close to the truth for divisors below 2^126.
+// Largest divisor that is used; quotients are only known to be close to the truth for divisors below 2^126.
 const float TRIANGLE_LARGEST_DIVISOR = 8.0e37;
 
-// Cyclic shift that puts the largest component of `direction` into z. Ties go to x, then y.
+// Returns the cyclic shift that puts the largest component of `direction` into z. Ties go to x, then y.
 uint triangle_major_axis(vec3 direction) {
     vec3 m = abs(direction);
     return m.x >= m.y && m.x >= m.z ? 0u : (m.y >= m.z ? 1u : 2u);
@@ -19,8 +19,8 @@ vec3 triangle_permute(vec3 p, uint axis) {
     return axis == 0u ? p.yzx : (axis == 1u ? p.zxy : p);
 }
 
-// The normal of a triangle, as long as twice its area, is `along - against`. The two are kept apart: where
-// they are equal, product by product, contraction cannot make a difference.
+// Returns the terms of a triangle's normal, which is as long as twice the area: it is `along - against`. The
+// two are kept apart: if they are equal, product by product, contraction cannot make a difference.
 void triangle_normal_terms(vec3 a, vec3 b, vec3 c, out vec3 along, out vec3 against) {
     precise vec3 ab = b - a;
     precise vec3 ac = c - a;
@@ -30,7 +30,7 @@ void triangle_normal_terms(vec3 a, vec3 b, vec3 c, out vec3 along, out vec3 agai
     against = second;
 }
 
-// True if a triangle has an area; one without is never hit.
+// True if a triangle has an area; a triangle without area is never hit.
 bool triangle_has_area(vec3 a, vec3 b, vec3 c) {
     vec3 along;
     vec3 against;
@@ -136,7 +136,7 @@ bool triangle_intersect_side(vec3 origin, vec3 direction, vec3 a, vec3 b, vec3 c
         return false;
     }
     counter_clockwise = (det > 0.0) == (d.z > 0.0);
-    // By rounding, a triangle without area may appear to have one.
+    // By rounding, a triangle without area may appear to have an area.
     vec3 along;
     vec3 against;
     triangle_normal_terms(a, b, c, along, against);
@@ -175,15 +175,15 @@ bool triangle_intersect_side(vec3 origin, vec3 direction, vec3 a, vec3 b, vec3 c
     return true;
 }
 
-// triangle_intersect_side where the side does not matter.
+// Tests as triangle_intersect_side if the side does not matter.
 bool triangle_intersect(vec3 origin, vec3 direction, vec3 a, vec3 b, vec3 c, out float t, out vec2 barycentrics,
     out float t_error) {
     bool counter_clockwise;
     return triangle_intersect_side(origin, direction, a, b, c, t, barycentrics, t_error, counter_clockwise);
 }
 
-// Barycentrics of b and c of the point of the triangle's plane below `p`; they may lie outside [0, 1].
-// Zero where the triangle has no area.
+// Returns the barycentrics of b and c for the point of the triangle's plane below `p`; they may lie outside
+// [0, 1]. They are zero if the triangle has no area.
 vec2 triangle_barycentrics(vec3 p, vec3 a, vec3 b, vec3 c) {
     vec3 ab = b - a;
     vec3 ac = c - a;
@@ -193,8 +193,8 @@ vec2 triangle_barycentrics(vec3 p, vec3 a, vec3 b, vec3 c) {
     return squared > 0.0 ? weights / squared : vec2(0.0);
 }
 
-// Intersection of a ray with the plane of a triangle: t, and the barycentrics of b and c there, which may lie
-// outside [0, 1]. False where the ray runs in or parallel to the plane, or the triangle has no area.
+// Intersects a ray with the plane of a triangle: t, and the barycentrics of b and c there, which may lie
+// outside [0, 1]. False if the ray runs in or parallel to the plane, or the triangle has no area.
 bool triangle_plane(vec3 origin, vec3 direction, vec3 a, vec3 b, vec3 c, out float t, out vec2 barycentrics) {
     vec3 normal = cross(b - a, c - a);
     float facing = dot(normal, direction);
@@ -208,7 +208,7 @@ bool triangle_plane(vec3 origin, vec3 direction, vec3 a, vec3 b, vec3 c, out flo
     return dot(normal, normal) > 0.0;
 }
 
-// The point of a flat triangle's border that is nearest to a point.
+// Returns the point of a flat triangle's border that is nearest to a point.
 vec2 triangle_nearest_point(vec2 a, vec2 b, vec2 c, vec2 p) {
     vec2 from[3] = vec2[3](a, b, c);
     vec2 to[3] = vec2[3](b, c, a);
