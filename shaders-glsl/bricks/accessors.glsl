@@ -23,17 +23,19 @@ POOL_RECORDS(bricks, corners, 7, vec3)
 #define BRICKS_VECTORS(s) POOL_VIEW_OF(bricks, vectors, BRICKS_HEADER(s).bricks_address)
 #define BRICKS_CORNERS(s) POOL_VIEW_OF(bricks, corners, BRICKS_HEADER(s).triangles_address)
 
-// Number of small triangles of a list, where cells may be divided: those no longer than a cell along any axis.
+// Number of small triangles of a list, if cells may be divided: triangles no longer than a cell along any
+// axis.
 #define BRICKS_SMALL_COUNT(s, list) BRICKS_POOL(s, lists)[BRICKS_HEADER(s).cell_capacity + (list)]
 
-// Distances replace the sums of scans.
+// Distances of bricks, in the pool that holds the sums of scans before.
 #define BRICKS_DISTANCES(s) BRICKS_POOL(s, sums)
 
-// Words of a record, and the bit beside the brick's number: the triangle is no longer than a cell along any axis.
+// Number of words of a record, and the bit beside the brick's number that marks a triangle no longer than a
+// cell along any axis.
 #define BRICKS_RECORD_WORDS 4u
 #define BRICKS_RECORD_SMALL 0x80000000u
 
-// The cells of a brick that a triangle reaches into, or some of them.
+// Record of the cells of a brick that a triangle reaches into, or of some of them.
 struct BricksRecord {
     uint primitive;
     uint brick;
@@ -45,23 +47,23 @@ BricksSlices bricks_slices(BricksRef s) {
     return BricksSlices(int(BRICKS_HEADER(s).slices), BRICKS_HEADER(s).slice_first, BRICKS_HEADER(s).slice_shift);
 }
 
-// Number of divisions of cells of a level along each axis.
+// Returns the number of divisions of cells of a level along each axis.
 uvec3 bricks_divisions(BricksRef s, uint level) {
     return BRICKS_DEPTH == 0u ? uvec3(0u) : min(uvec3(level), BRICKS_HEADER(s).depths);
 }
 
-// Cells of a level: of the views, or the cells of those divided that often.
+// Returns the cells of a level: those of the views, or cells divided that many times.
 BoxCells bricks_axes(BricksRef s, uint level) {
     return BoxCells(BRICKS_HEADER(s).cells_lower, BRICKS_HEADER(s).cells_per_metre * vec3(uvec3(1u) << 2u * bricks_divisions(s, level)),
         BRICKS_HEADER(s).rounding);
 }
 
-// Faces of the cube, or the one view along an axis.
+// Returns the number of views: the faces of the cube, or the one view along an axis.
 uint bricks_view_count() {
     return BRICKS_VIEWS == BRICKS_VIEWS_AXES ? 1u : VIEW_FACES;
 }
 
-// Columns, rows and slices of a view.
+// Returns the columns, rows and slices of a view.
 uvec3 bricks_cells(BricksRef s) {
     return uvec3(BRICKS_HEADER(s).columns, BRICKS_HEADER(s).rows, BRICKS_HEADER(s).slices);
 }
@@ -70,17 +72,17 @@ uint bricks_total(BricksRef s) {
     return bricks_view_count() * bricks_count(bricks_cells(s));
 }
 
-// The triangle of an entry of the lists; the entry must be within the pool.
+// Returns the triangle of an entry of the lists; the entry must be within the pool.
 uint bricks_entry(BricksRef s, uint entry) {
     return BRICKS_POOL(s, entries)[entry];
 }
 
-// The triangle at a place of the near-region list.
+// Returns the triangle at a place of the near-region list.
 uint bricks_near(BricksRef s, uint place) {
     return BRICKS_POOL(s, near)[place];
 }
 
-// Cells that list something and whose list fits into the pool.
+// Returns the number of cells that list something and whose list fits into the pool.
 uint bricks_listed_cells(BricksRef s) {
     return min(BRICKS_HEADER(s).cell_demand, BRICKS_HEADER(s).cell_capacity);
 }
@@ -89,7 +91,7 @@ uint bricks_stored_records(BricksRef s) {
     return min(BRICKS_HEADER(s).record_demand, BRICKS_HEADER(s).record_capacity);
 }
 
-// Bricks that fit into the pool.
+// Returns the number of bricks that fit into the pool.
 uint bricks_stored(BricksRef s) {
     return min(BRICKS_HEADER(s).brick_demand, BRICKS_HEADER(s).brick_capacity);
 }
@@ -98,7 +100,7 @@ uvec2 bricks_mask(BricksRef s, uint brick) {
     return uvec2(BRICKS_POOL(s, bricks)[bricks_mask_at(brick, 0u)], BRICKS_POOL(s, bricks)[bricks_mask_at(brick, 1u)]);
 }
 
-// The cells of a brick that are divided.
+// Returns the cells of a brick that are divided, as a mask.
 uvec2 bricks_divided(BricksRef s, uint brick) {
     return BRICKS_DEPTH == 0u ? uvec2(0u)
         : uvec2(BRICKS_POOL(s, bricks)[bricks_divided_at(brick, 0u)], BRICKS_POOL(s, bricks)[bricks_divided_at(brick, 1u)]);
@@ -113,7 +115,7 @@ struct BricksWords {
     uint layer;           // of an empty brick: how far its layer of columns and slices is empty
 };
 
-// All of it at once, as whole vectors where cells may be divided.
+// Reads all words of a brick at once, as whole vectors if cells may be divided.
 BricksWords bricks_words(BricksRef s, uint brick) {
     if (BRICKS_DEPTH == 0u) {
         return BricksWords(BRICKS_POOL(s, bricks)[bricks_at(brick)], bricks_mask(s, brick), uvec2(0u), 0u, 0u);
@@ -129,12 +131,13 @@ bool bricks_has_nothing(BricksRef s, uint brick) {
     return (cells.x | cells.y) == 0u;
 }
 
-// Cells of a brick of a level along each axis: 4, or the one that was not divided.
+// Returns the number of cells of a brick of a level along each axis: 4, or 1 along an axis that was not
+// divided.
 ivec3 bricks_side(BricksRef s, uint level) {
     return BRICKS_DEPTH == 0u ? ivec3(4) : mix(ivec3(1), ivec3(4), lessThanEqual(uvec3(level), BRICKS_HEADER(s).depths));
 }
 
-// Place of a brick of a level, in bricks of that level.
+// Returns the place of a brick of a level, in bricks of that level.
 uvec3 bricks_place_of(BricksRef s, uint brick, uint level) {
     if (level == 0u) {
         return bricks_place(brick, bricks_cells(s));
@@ -148,14 +151,14 @@ uvec3 bricks_place_of(BricksRef s, uint brick, uint level) {
 void bricks_mark(BricksRef s, uint brick, uvec2 cells) {
     for (uint word = 0u; word < 2u; word++) {
         uint at = bricks_mask_at(brick, word);
-        // Most bits are set already, and reading is cheaper.
+        // Most bits are set already, and reading is cheaper than an atomic.
         if ((BRICKS_POOL(s, bricks)[at] & cells[word]) != cells[word]) {
             atomicOr(BRICKS_POOL(s, bricks)[at], cells[word]);
         }
     }
 }
 
-// Stores a record of a level and marks its cells, or counts that the capacity did not suffice.
+// Stores a record of a level and marks its cells, or counts that the capacity was too small.
 void bricks_store_record(BricksRef s, uint level, BricksRecord record) {
     uint place = atomicAdd(BRICKS_HEADER(s).record_demand, 1u);
     if (place < BRICKS_HEADER(s).record_capacity) {

@@ -22,7 +22,7 @@ BricksSpace bricks_space(BricksRef s) {
     return BricksSpace(bricks_grid(s), bricks_slices(s), bricks_axes(s, 0u), bricks_cells(s));
 }
 
-// A triangle in a view.
+// Triangle in a view.
 struct BricksBin {
     uint primitive;
     uint face;
@@ -36,7 +36,7 @@ struct BricksBin {
     bool small;           // no longer than a cell along any axis; of views along axes
 };
 
-// The triangle is relative to the centre. False where it reaches into no column of the view.
+// Begins a triangle relative to the centre; false if it reaches into no column of the view.
 bool bricks_bin_begin(BricksSpace space, BinTriangle triangle, uint face, out BricksBin bin) {
     bin.primitive = triangle.primitive;
     bin.face = face;
@@ -67,7 +67,8 @@ bool bricks_bin_begin(BricksSpace space, BinTriangle triangle, uint face, out Br
     return true;
 }
 
-// The depths of the triangle within a square of `side` columns; false where it does not reach into it.
+// Finds the depths of the triangle within a square of `side` columns; false if it does not reach into the
+// square.
 bool bricks_bin_depths(BricksBin bin, ivec2 column, int side, out vec2 depths) {
     if (BRICKS_VIEWS == BRICKS_VIEWS_AXES) {
         return box_clip_depths(bin.clip, column, side, depths);
@@ -84,7 +85,7 @@ bool bricks_bin_depths(BricksBin bin, ivec2 column, int side, out vec2 depths) {
     return widest - narrow < 0.125 * half_side || overlap_at(bin.space.grid.near_size, bin.overlap, vec3(place, 1.0), narrow, depths);
 }
 
-// The first and last slice of depths that a triangle has in a column.
+// Returns the first and last slice of the depths that a triangle has in a column.
 uvec2 bricks_bin_slices(BricksBin bin, vec2 depths) {
     if (BRICKS_VIEWS == BRICKS_VIEWS_AXES) {
         return uvec2(clamp(ivec2(floor(depths)), ivec2(0), ivec2(bin.space.cells.z) - 1));
@@ -93,7 +94,7 @@ uvec2 bricks_bin_slices(BricksBin bin, vec2 depths) {
     return uvec2(bricks_slice_of(depths.x - rounding, bin.space.slices), bricks_slice_of(depths.y + rounding, bin.space.slices));
 }
 
-// Stores the triangle in a column if it reaches into it. Returns how many entries that makes.
+// Stores the triangle in a column if it reaches into it. Returns the number of entries.
 uint bricks_bin_column(BricksRef s, BricksBin bin, ivec2 column) {
     vec2 depths;
     if (!bricks_bin_depths(bin, column, 1, depths)) {

@@ -11,7 +11,7 @@
 #include "bricks/names.glsl"
 #include "ads/build_constants.glsl"
 
-// The large-triangle queue is stored where the corners of triangles will be.
+// Queue of large triangles, stored in the pool that will hold the corners of triangles.
 POOL_WORDS(bricks, triangles, 7)
 #define LARGE_WORD(s, place) BRICKS_POOL(s, triangles)[place]
 #define LargeRef BricksRef
@@ -26,7 +26,7 @@ POOL_WORDS(bricks, triangles, 7)
 #define Bin BricksBin
 
 BricksSpace bricks_built_space;
-// Entries of the columns this invocation has visited.
+// Number of entries of the columns that this invocation has visited.
 uint bricks_bin_entries = 0u;
 
 uint bin_view_count() {

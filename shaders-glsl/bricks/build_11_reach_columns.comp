@@ -19,7 +19,7 @@ void main() {
         return;
     }
     uint first = line / deep * bricks.x * deep + line % deep;
-    // Towards lower and higher slices.
+    // The two runs lead towards lower and higher slices.
     uvec2 runs = uvec2(BRICKS_RUNS_BEGIN);
     for (uint x = 0u; x < bricks.x; x++) {
         uint brick = first + x * deep;

@@ -10,7 +10,7 @@
 
 layout(local_size_x = BRICKS_GROUP_SIZE) in;
 
-// The runs of four octants, and the reaches of a brick towards them.
+// Lengthens the runs of four octants by the reaches of a brick towards them.
 void lengthen(inout uint runs[4], uint reaches) {
     for (uint q = 0u; q < 4u; q++) {
         runs[q] = bricks_runs_with(runs[q], reaches >> (4u * q) & 15u);
@@ -38,7 +38,7 @@ void main() {
             if (BRICKS_DEPTH != 0u) {
                 BRICKS_POOL(build.structure, bricks)[bricks_layer_at(brick)] = reaches;
             }
-            // Until the pass in the other direction, these are the reaches towards lower rows.
+            // Until the pass in the other direction, the word holds the reaches towards lower rows.
             BRICKS_POOL(build.structure, bricks)[bricks_at(brick)] = BRICKS_EMPTY | reaches_of(runs);
         }
     }

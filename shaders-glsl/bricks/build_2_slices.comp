@@ -17,7 +17,8 @@ void main() {
     for (uint octave = 0u; octave < BRICKS_OCTAVES; octave++) {
         triangles += BRICKS_HEADER(build.structure).octaves[octave];
     }
-    // As few octaves as hold all but one triangle in BRICKS_OCTAVE_SHARE; nearer depths are in the first slice.
+    // The slices cover as few octaves as hold all but one triangle in BRICKS_OCTAVE_SHARE; nearer depths are
+    // in the first slice.
     uint octaves = BRICKS_OCTAVES;
     uint nearer = BRICKS_HEADER(build.structure).octaves[BRICKS_OCTAVES - 1u];
     while (octaves > 1u && nearer <= triangles / BRICKS_OCTAVE_SHARE) {

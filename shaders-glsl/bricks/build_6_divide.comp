@@ -8,7 +8,7 @@
 
 layout(local_size_x = BRICKS_GROUP_SIZE) in;
 
-// Cells of a brick that are crowded, as a mask.
+// Returns the crowded cells of a brick as a mask.
 uvec2 crowded_cells(uvec2 mask, uint first) {
     uint lists = BRICKS_HEADER(build.structure).cell_capacity;
     uvec2 crowded = uvec2(0u);

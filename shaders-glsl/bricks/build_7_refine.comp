@@ -33,7 +33,8 @@ void main() {
         BoxClip clip = box_clip_begin(axes, all, triangle.a, triangle.b, triangle.c);
         uvec3 brick = bricks_place_of(build.structure, record.brick, build.step);
         uint child = BRICKS_POOL(build.structure, bricks)[bricks_child_at(record.brick)];
-        // One loop over the columns of all cells, so that invocations with few of each do not wait for those with many.
+        // There is one loop over the columns of all cells, so that invocations with few of each do not wait
+        // for those with many.
         Refined part;
         uint word;
         uint bit;
@@ -47,7 +48,7 @@ void main() {
             }
             begins = !refined_column(clip, part);
             if (begins) {
-                // Less the entry of the divided cell.
+                // The entry of the divided cell is subtracted.
                 entries += uint(bitCount(part.cells.x) + bitCount(part.cells.y)) - 1u;
                 if ((part.cells.x | part.cells.y) != 0u) {
                     uint of_cell = child + bricks_rank(divided, word, bit);

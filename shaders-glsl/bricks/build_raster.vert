@@ -15,8 +15,8 @@
 
 layout(location = 0) flat out uvec2 primitive_and_view;
 
-// Columns of a view along z: a square viewport of as many columns along a side as the longer side has, with a border
-// of one. a, b, c relative to the centre.
+// Proposes columns of a view along z: in a square viewport with as many columns along a side as the longer
+// side has, and with a border of one. a, b, c are relative to the centre.
 vec4 propose_columns(vec3 a, vec3 b, vec3 c, uint corner) {
     vec3 lower = BRICKS_HEADER(build.structure).cells_lower;
     vec3 per_metre = BRICKS_HEADER(build.structure).cells_per_metre;
@@ -26,17 +26,18 @@ vec4 propose_columns(vec3 a, vec3 b, vec3 c, uint corner) {
     for (int k = 0; k < 3; k++) {
         p[k] = vec3((p[k] - lower).xy * per_metre.xy * (2.0 / float(side)) - 1.0, 1.0);
     }
-    // Half a column and how far columns reach beyond their sides, with 1/32 of a column for the hardware's
-    // grid and as much for rounding.
+    // The margin is half a column and the reach of columns beyond their sides, with 1/32 of a column for the
+    // hardware's grid and as much for rounding.
     float margin = 0.5 + rounding * max(per_metre.x, per_metre.y) + 1.0 / 16.0;
     return coverage_proposal_within(p[0], p[1], p[2], corner, side, margin * 2.0 / float(side));
 }
 
-// Columns of a face.
+// Proposes columns of a face.
 vec4 propose_face_columns(vec3 a, vec3 b, vec3 c, uint corner) {
     BricksGrid grid = bricks_grid(build.structure);
     float nearest = min(a.z, min(b.z, c.z));
-    // The centre of every column that the triangle reaches into, with 1/32 of a column for the hardware's grid.
+    // The margin covers the centre of every column that the triangle reaches into, with 1/32 of a column for
+    // the hardware's grid.
     float margin = 1.0 / float(grid.columns) + bricks_margin(grid, nearest) + 1.0 / (16.0 * float(grid.columns));
     return coverage_proposal_within(a, b, c, corner, grid.columns, margin);
 }

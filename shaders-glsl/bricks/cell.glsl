@@ -12,7 +12,7 @@ struct BricksTraversal {
     ivec3 cells;          // columns, rows and slices, of the smallest cells
     ivec3 shift;          // log2 of the smallest cells along each side of a cell of a view
     float steepness;      // rows that the ray crosses for each column or slice, whichever are more
-    // The following is for the faces of a cube only.
+    // The following members are for the faces of a cube only.
     BricksSlices slices;
     float half_side;      // half the columns of a face
     float column;         // width of one in x/z
@@ -23,8 +23,8 @@ struct BricksTraversal {
     uint bricks;
 };
 
-// Bricks beyond an empty one that are empty too: along all axes towards an octant, or farther along columns and slices alone
-// where that is what a ray crosses in one step.
+// Returns the number of empty bricks beyond an empty one: along all axes towards an octant, or farther along
+// columns and slices alone if a ray crosses these in one step.
 ivec3 bricks_empty_bricks(BricksWords words, uint octant, float steepness) {
     int cube = bricks_distance(words.word, octant);
     if (BRICKS_DEPTH != 0u) {
@@ -36,7 +36,7 @@ ivec3 bricks_empty_bricks(BricksWords words, uint octant, float steepness) {
     return ivec3(cube);
 }
 
-// The smallest cells that a ray may cross in one step: all between first and last along each axis.
+// Box of the smallest cells that a ray may cross in one step: all between first and last along each axis.
 struct BricksBox {
     ivec3 first;
     ivec3 last;
@@ -44,8 +44,8 @@ struct BricksBox {
     uint list;
 };
 
-// The box of a brick whose cells are as large as 2^shift of the smallest along a side; it has one cell along an axis where that
-// would be less than 1. False, and the brick of the cell, if that is divided.
+// Finds the box in a brick whose cells are 2^shift of the smallest along a side; it has one cell along an
+// axis along which it would have less than 1. False if the cell is divided; `brick` is then the cell's brick.
 bool bricks_box_in(BricksWords words, ivec3 shift, ivec3 cell, bvec3 up, inout uint brick, inout BricksBox box) {
     ivec3 size = max(shift, 0);
     ivec3 within = mix(ivec3(3), ivec3(0), lessThan(shift, ivec3(0)));
@@ -73,7 +73,8 @@ bool bricks_box_in(BricksWords words, ivec3 shift, ivec3 cell, bvec3 up, inout u
     return true;
 }
 
-// Box crossed from a cell in one step. Bricks, lists and triangles with an invalid index are counted, here and below.
+// Finds the box crossed from a cell in one step. Bricks, lists and triangles with an invalid index are
+// counted, here and below.
 BricksBox bricks_box(BricksRef s, BricksTraversal traversal, uint face, ivec3 cell, bvec3 up, inout uint corrupted) {
     uvec3 of_view = uvec3(traversal.cells >> traversal.shift);
     uint brick = bricks_index(face, cell >> traversal.shift, of_view);
@@ -101,7 +102,7 @@ BricksBox bricks_box(BricksRef s, BricksTraversal traversal, uint face, ivec3 ce
     return box;
 }
 
-// Begin and end of the list of a cell. One that leaves the pool is empty.
+// Returns begin and end of the list of a cell. A list that leaves the pool is empty.
 uvec2 bricks_entries(BricksRef s, BricksTraversal traversal, uint list, inout uint corrupted) {
     if (list < traversal.listed) {
         uvec2 entries = uvec2(list == 0u ? 0u : BRICKS_POOL(s, lists)[list - 1u], BRICKS_POOL(s, lists)[list]);
@@ -113,7 +114,7 @@ uvec2 bricks_entries(BricksRef s, BricksTraversal traversal, uint list, inout ui
     return uvec2(0u);
 }
 
-// Tests a candidate with the corners kept here, or with those of the geometry.
+// Tests a candidate with its copied corners, or with those of the geometry.
 void bricks_test(BricksRef s, uint primitive, Ray ray, inout TraceState state, inout uint corrupted) {
     bool kept = BRICKS_CORNERS_KEPT != 0u;
     if (primitive >= (kept ? BRICKS_HEADER(s).triangle_capacity : geometry_triangle_count())) {

@@ -11,7 +11,7 @@
 
 #define BRICKS_INFINITY uintBitsToFloat(0x7F800000u)
 
-// A ray in one face.
+// Ray in one face.
 struct BricksRay {
     vec3 origin;          // face space, metres from the centre
     vec3 direction;
@@ -20,7 +20,7 @@ struct BricksRay {
     float z_inverse;      // of the direction's z
 };
 
-// origin is relative to the centre, in world axes.
+// Transforms a ray into a face; origin is relative to the centre, in world axes.
 BricksRay bricks_ray(vec3 origin, vec3 direction, uint face) {
     BricksRay ray;
     ray.origin = face_from_world(origin, face);
@@ -36,13 +36,14 @@ BricksRay bricks_ray(vec3 origin, vec3 direction, uint face) {
     return ray;
 }
 
-// t at which the boundary x/z = c is crossed in the direction of the heading, else infinite.
+// Returns the t at which the boundary x/z = c is crossed in the direction of the heading, or infinity.
 float bricks_crossing(float c, float o, float d, float oz, float dz, float heading) {
     float denominator = d - c * dz;
     return denominator * heading > 0.0 ? (c * oz - o) / denominator : BRICKS_INFINITY;
 }
 
-// t at which the ray intersects each of three planes: below column planes.x, row planes.y, slice planes.z.
+// Returns the t at which the ray intersects each of three planes: below column planes.x, row planes.y, slice
+// planes.z.
 vec3 bricks_exits(BricksRay ray, ivec3 planes, float column, BricksSlices slices) {
     vec2 c = vec2(planes.xy) * column - 1.0;
     float tz = planes.z > 0 && planes.z < slices.count && ray.z_inverse != 0.0
@@ -51,19 +52,20 @@ vec3 bricks_exits(BricksRay ray, ivec3 planes, float column, BricksSlices slices
         bricks_crossing(c.y, ray.origin.y, ray.direction.y, ray.origin.z, ray.direction.z, ray.heading.y), tz);
 }
 
-// The cell that the ray is in at t. Where rounding does not decide, the column and row that are visited first: a
-// boundary behind the ray is crossed at once, but one that is never crossed could not be stepped back over.
+// Returns the cell that the ray is in at t. If rounding does not decide, these are the column and row that
+// are visited first: a boundary behind the ray is crossed at once, but a boundary that is never crossed could
+// not be stepped back over.
 ivec3 bricks_cell_at(BricksRay ray, float t, float half_side, float rounding, BricksSlices slices) {
     vec3 p = ray.origin + t * ray.direction;
     float inverse = 1.0 / max(p.z, 1.0e-37);
     vec2 place = p.xy * inverse - ray.heading.xy * (rounding * inverse + 1.0e-6);
     place = vec2(ray.heading.x == 0.0 ? ray.still.x : place.x, ray.heading.y == 0.0 ? ray.still.y : place.y);
-    // Clamped before it becomes an integer, which holds less than 2^31.
+    // The place is clamped before it becomes an integer, which must be less than 2^31.
     vec2 cell = clamp(place * half_side + half_side, vec2(-1.0), vec2(2.0 * half_side));
     return ivec3(ivec2(floor(cell)), bricks_slice_of(p.z, slices));
 }
 
-// The face beyond a side of a face: that of columns or that of rows, lower or upper.
+// Returns the face beyond a side of a face: a side of columns or of rows, lower or upper.
 uint bricks_face_beyond(uint face, bool columns, bool lower) {
     uint axis = ((face >> 1) + (columns ? 1u : 2u)) % 3u;
     return 2u * axis + (lower ? 1u : 0u);

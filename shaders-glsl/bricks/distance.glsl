@@ -14,18 +14,18 @@
 // brick everything is empty.
 #define BRICKS_RUNS_BEGIN 0x88888888u
 
-// The runs that end at a brick, from those that end before it and its reach along the axes so far.
+// Returns the runs that end at a brick, from those that end before it and its reach along the axes so far.
 uint bricks_runs_with(uint runs, uint reach) {
     uint longer = runs + 0x11111111u - (runs >> 3 & 0x11111111u);
     return reach < BRICKS_REACH ? longer & ((1u << (4u * reach)) - 1u) : longer;
 }
 
-// The reach of the brick that runs end at, this axis included: the largest v whose run is v long.
+// Returns the reach of the brick at which runs end, this axis included: the largest v whose run is v long.
 uint bricks_reach_of(uint runs) {
     return uint(bitCount((runs + 0x01234567u) & 0x88888888u));
 }
 
-// The word of an empty brick from its eight reaches.
+// Returns the word of an empty brick from its eight reaches.
 uint bricks_empty_word(uint reaches) {
     uint word = BRICKS_EMPTY;
     for (uint octant = 0u; octant < 8u; octant++) {

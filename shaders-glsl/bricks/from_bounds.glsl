@@ -8,8 +8,8 @@
 #include "ads/placement.glsl"
 #include "bricks/header.glsl"
 
-// Most divisions of cells along each axis: smaller ones are not much narrower than their margins, which
-// cells of flat bounds are already.
+// Returns the largest number of divisions of cells along each axis: smaller cells would be hardly wider than
+// their margins, as cells of flat bounds already are.
 uvec3 bricks_depths_for(BoxPlacement at) {
     vec3 margins = BRICKS_DIVIDED_MARGINS * at.rounding * at.per_metre;
     uvec3 depths = uvec3(0u);
@@ -29,8 +29,8 @@ void bricks_from_bounds(BricksRef s, vec3 lower, vec3 upper) {
     } else {
         at.centre = centre_within(BRICKS_HEADER(s).eye, lower, upper);
         at.reach = box_reach(lower - at.centre, upper - at.centre);
-        // A difference of two coordinates is rounded relative to itself, so it does not matter how far the centre is from
-        // the frame origin.
+        // A difference of two coordinates is rounded relative to itself, so the distance of the centre from
+        // the frame origin does not matter.
         at.rounding = CELL_ROUNDING * at.reach;
         at.lower = vec3(0.0);
         at.per_metre = vec3(0.0);
@@ -42,8 +42,8 @@ void bricks_from_bounds(BricksRef s, vec3 lower, vec3 upper) {
     BRICKS_HEADER(s).cells_per_metre = at.per_metre;
     BRICKS_HEADER(s).lower = lower - at.centre - at.rounding;
     BRICKS_HEADER(s).upper = upper - at.centre + at.rounding;
-    // Hits of a ray outside of the near region are not behind the centre, also where columns are few. Depths are
-    // positive, also where all geometry is at the centre.
+    // Hits of a ray outside the near region are not behind the centre, even if there are few columns. Depths
+    // are positive, even if all geometry is at the centre.
     float near = max(NEAR_REGION * float(cells.x) * at.reach, 2.0 * at.rounding);
     BRICKS_HEADER(s).near_size = max(near, PLACEMENT_SMALLEST);
 }

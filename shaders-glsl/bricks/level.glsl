@@ -10,7 +10,7 @@
 
 #define BRICKS_LEVEL_STRIDE (gl_NumWorkGroups.x * BRICKS_GROUP_SIZE)
 
-// First brick or record of the level for this invocation, and what is behind the last of the level.
+// Returns the first brick or record of the level for this invocation, and the end of the level.
 uvec2 bricks_level_bricks() {
     return uvec2(BRICKS_HEADER(build.structure).brick_first[build.step] + gl_GlobalInvocationID.x,
         min(BRICKS_HEADER(build.structure).brick_first[build.step + 1u], BRICKS_HEADER(build.structure).brick_capacity));

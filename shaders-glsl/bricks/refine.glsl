@@ -7,7 +7,7 @@
 #include "ads/box_clip.glsl"
 #include "bricks/words.glsl"
 
-// The part of a triangle in the brick of a divided cell, one column of it after the other.
+// Part of a triangle in the brick of a divided cell, one column after another.
 struct Refined {
     ivec3 corner;         // first cell of the brick
     ivec2 lower;          // first and last column that the triangle may reach into, within the brick
@@ -17,7 +17,7 @@ struct Refined {
     uvec2 cells;          // reached so far
 };
 
-// `brick`: its place among those of the level; `side`: its cells along each axis.
+// Begins a part. `brick` is its place among those of the level, `side` its number of cells along each axis.
 Refined refined_begin(BoxClip clip, uvec3 brick, ivec3 side) {
     Refined part;
     part.corner = side * ivec3(brick);
@@ -29,7 +29,7 @@ Refined refined_begin(BoxClip clip, uvec3 brick, ivec3 side) {
     return part;
 }
 
-// Adds the cells of the next column; false behind the last.
+// Adds the cells of the next column; false after the last.
 bool refined_column(BoxClip clip, inout Refined part) {
     if (any(greaterThan(part.column, part.upper))) {
         return false;

@@ -15,12 +15,13 @@ int bricks_slice_of(float z, BricksSlices slices) {
     return clamp((floatBitsToInt(max(z, 0.0)) - slices.first) >> slices.shift, 0, slices.count - 1);
 }
 
-// Depth of the boundary below slice k, for 0 < k < count.
+// Returns the depth of the boundary below slice k, for 0 < k < count.
 float bricks_slice_boundary(int k, BricksSlices slices) {
     return intBitsToFloat(slices.first + (k << slices.shift));
 }
 
-// The slices whose last one ends behind `farthest` and that exclude at most `octaves` octaves before the first.
+// Returns the slices whose last one ends behind `farthest` and which cover about `octaves` octaves or more;
+// nearer depths are in the first slice.
 BricksSlices bricks_slices_over(float farthest, uint octaves, uint count) {
     uint an_octave = 1u << uint(findMSB(max(count / max(octaves, 1u), 1u)));
     int shift = 23 - findMSB(an_octave);

@@ -11,34 +11,35 @@
 #include "ads/constants.glsl"
 #include "ads/march_cube.glsl"
 
-// Number of triangles that are tested one by one.
+// Returns the number of triangles that are tested one by one.
 uint bricks_alone(BricksRef s, uint alone) {
     return alone == BRICKS_ALONE_ALL ? geometry_triangle_count()
         : min(BRICKS_HEADER(s).near_demand, BRICKS_HEADER(s).near_capacity);
 }
 
-// Tests what is tested one by one, then follows the ray, over the near region if it crosses that; a ray that tests all
-// triangles is not followed. Either reads its candidates by the same code, which is most of the kernel. `resumed`: as the
-// cursor says. True if the budget ended first.
+// Tests the triangles that are tested one by one, then follows the ray, across the near region if it crosses
+// that; a ray that tests all triangles is not followed. Both parts read their candidates by the same code,
+// which is most of the kernel. `resumed` if the cursor holds the place. Returns true if the budget ended
+// first.
 bool bricks_trace_cells(BricksRef s, Ray ray, BricksSpan span, uint alone, bool any_hit, bool resumed, inout TraceState state) {
     uint work = 0u;
-    // Added up here: an atomic in a loop costs time.
+    // Faults are added up here, because an atomic in a loop costs time.
     uint corrupted = 0u;
     const bool axes = BRICKS_VIEWS == BRICKS_VIEWS_AXES;
     BricksTraversal traversal = bricks_traversal(s);
-    // A finite end, also where the end of the geometry overflows.
+    // This makes the end finite, even if the end of the geometry overflows.
     span.t_last = min(span.t_last, 3.0e38);
     bool crosses_near = span.near.x <= span.near.y && span.near.y < span.t_last;
     if (span.near.x <= span.near.y && !crosses_near) {
-        // A ray that ends in the near region needs no cell of it.
+        // A ray that ends in the near region needs no cell beyond it.
         span.t_last = min(span.t_last, span.near.x);
     }
     BricksWalk walk = bricks_walk_begin(span, ray.direction, alone, resumed, state);
     BricksLine line;
-    // The two triangles tested last: large ones are in many consecutive cells.
+    // The two triangles tested last are remembered, because large ones are in many consecutive cells.
     uvec2 tested = uvec2(PRIMITIVE_NONE);
-    // Each iteration crosses a cell or the empty cells around it, and stays below the budget; the first may test what is
-    // tested one by one.
+    // Each iteration crosses a cell or the empty cells around it, and stays below the budget; the first
+    // iterations may test triangles one by one.
     while (alone != BRICKS_ALONE_NONE || (walk.t <= span.t_last && !(walk.t > state.best.t + span.slack))) {
         if (walk.turns && alone == BRICKS_ALONE_NONE) {
             line = bricks_line(s, span.origin, ray.direction, walk.face);
@@ -118,7 +119,8 @@ bool bricks_trace_cells(BricksRef s, Ray ray, BricksSpan span, uint alone, bool 
             tested = uvec2(PRIMITIVE_NONE);
             continue;
         }
-        // Where the ray enters the near region it continues on the other side; triangles in it are tested one by one.
+        // A ray that enters the near region continues on the other side; triangles in the region are tested
+        // one by one.
         if (crosses_near && walk.t < span.near.x && t_out >= span.near.x) {
             walk.t = span.near.y;
             walk.face = face_of(span.origin + walk.t * ray.direction);
@@ -149,7 +151,7 @@ bool bricks_trace_cells(BricksRef s, Ray ray, BricksSpan span, uint alone, bool 
     return walk.paused;
 }
 
-// The whole ray.
+// Traces the whole ray.
 uint bricks_trace(BricksRef s, Ray ray, inout TraceState state, bool any_hit) {
     vec3 origin = ray.origin - BRICKS_HEADER(s).centre;
     float reach = BRICKS_HEADER(s).reach;

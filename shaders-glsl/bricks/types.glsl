@@ -12,7 +12,7 @@ layout(constant_id = 40) const uint BRICKS_VIEWS = BRICKS_VIEWS_AXES;
 layout(constant_id = 41) const uint BRICKS_SKIP = 1u;
 layout(constant_id = 42) const uint BRICKS_CORNERS_KEPT = 1u;
 
-// Most divisions of a cell. Bricks that may have divided cells have words for those.
+// Largest number of divisions of a cell. Bricks that may have divided cells have words for those.
 layout(constant_id = 43) const uint BRICKS_DEPTH = 0u;
 
 // State and sizes of bricks. Shared, 504 bytes.

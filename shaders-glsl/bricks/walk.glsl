@@ -25,15 +25,15 @@
 #define BRICKS_CURSOR_STARTED 0, 1
 #define BRICKS_CURSOR_LISTED 1, 1
 #define BRICKS_CURSOR_FACE 2, 3
-// The list of the cell has not been begun.
+// Value of the next entry if the list of the cell has not been begun.
 #define BRICKS_LIST_BEGIN 0xFFFFFFFFu
 
-// Triangles tested one by one before the ray is followed.
+// Triangles that are tested one by one before the ray is followed.
 #define BRICKS_ALONE_NONE 0u
 #define BRICKS_ALONE_NEAR 1u
 #define BRICKS_ALONE_ALL 2u
 
-// The part of a ray that is followed.
+// Part of a ray that is followed.
 struct BricksSpan {
     vec3 origin;          // of the ray, metres relative to the centre
     float t_first;
@@ -42,7 +42,7 @@ struct BricksSpan {
     float slack;          // of t: a cell behind the best hit by more than this cannot hold a nearer one
 };
 
-// Where a ray is.
+// Place of a ray among the cells.
 struct BricksWalk {
     float t;
     uint face;            // of the cube; 0 in views along axes
@@ -53,7 +53,7 @@ struct BricksWalk {
     bool paused;          // the budget ended
 };
 
-// A ray in a view.
+// Line of a ray in a view.
 struct BricksLine {
     BricksRay in_face;    // of a face of the cube
     BoxLine along_axes;   // of a view along axes
@@ -75,7 +75,8 @@ BricksTraversal bricks_traversal(BricksRef s) {
     return traversal;
 }
 
-// Where a ray is at first: where the cursor says if it is `resumed`, else where the span begins or the near region ends.
+// Returns the place where a ray begins: that of the cursor if it is `resumed`, otherwise the begin of the
+// span or the end of the near region.
 BricksWalk bricks_walk_begin(BricksSpan span, vec3 direction, uint alone, bool resumed, TraceState state) {
     BricksWalk walk = BricksWalk(span.t_first, 0u, ivec3(0), BRICKS_LIST_BEGIN, true, true, false);
     walk.begins = !resumed || alone != BRICKS_ALONE_NONE;
@@ -95,7 +96,8 @@ BricksWalk bricks_walk_begin(BricksSpan span, vec3 direction, uint alone, bool r
     return walk;
 }
 
-// Keeps in the cursor where a ray is, and what is tested one by one before it is followed (BRICKS_ALONE_*).
+// Stores in the cursor the place of a ray, and the triangles that are tested one by one before it is followed
+// (BRICKS_ALONE_*).
 void bricks_walk_keep(BricksWalk walk, uint alone, inout TraceState state) {
     state.cursor[0] = bits_put(true, BRICKS_CURSOR_STARTED) | bits_put(walk.face, BRICKS_CURSOR_FACE)
         | bits_put(alone != BRICKS_ALONE_NONE, BRICKS_CURSOR_LISTED);
@@ -105,7 +107,7 @@ void bricks_walk_keep(BricksWalk walk, uint alone, inout TraceState state) {
     state.cursor[4] = walk.entry;
 }
 
-// The line of a ray in a view.
+// Returns the line of a ray in a view.
 BricksLine bricks_line(BricksRef s, vec3 origin, vec3 direction, uint face) {
     BricksLine line;
     if (BRICKS_VIEWS == BRICKS_VIEWS_AXES) {
@@ -118,27 +120,27 @@ BricksLine bricks_line(BricksRef s, vec3 origin, vec3 direction, uint face) {
     return line;
 }
 
-// Rows that a line along axes crosses for each column or slice, whichever are more.
+// Returns the number of rows that a line along axes crosses for each column or slice, whichever are more.
 float bricks_line_steepness(BricksLine line) {
     vec3 speed = abs(line.along_axes.direction);
     return speed.y / max(speed.x, speed.z);
 }
 
-// The cell at t; one outside of the view may be the answer.
+// Returns the cell at t, which may be outside the view.
 ivec3 bricks_line_cell_at(BricksLine line, BricksTraversal traversal, float t) {
     return BRICKS_VIEWS == BRICKS_VIEWS_AXES ? box_line_cell_at(line.along_axes, t, traversal.cells)
         : bricks_cell_at(line.in_face, t, traversal.half_side, traversal.rounding, traversal.slices);
 }
 
-// t at which the line leaves a box along each axis.
+// Returns the t at which the line leaves a box along each axis.
 vec3 bricks_line_exits(BricksLine line, BricksTraversal traversal, BricksBox box) {
     ivec3 planes = mix(box.first, box.last + 1, line.up);
     return BRICKS_VIEWS == BRICKS_VIEWS_AXES ? box_line_exits(line.along_axes, planes)
         : bricks_exits(line.in_face, planes, traversal.column, traversal.slices);
 }
 
-// The cell behind a box that is left along one axis, at t and from a cell within: along columns, along rows, or else along
-// slices. It may be outside of the view.
+// Returns the cell behind a box that is left along one axis, at t and from a cell within: along columns,
+// along rows, or else along slices. The cell may be outside the view.
 ivec3 bricks_next_cell(BricksLine line, BricksTraversal traversal, BricksBox box, ivec3 cell, float t, bool leaves_x, bool leaves_y) {
     ivec3 next = bricks_line_cell_at(line, traversal, t);
     next = clamp(next, mix(box.first, cell, line.up), mix(cell, box.last, line.up));

@@ -10,29 +10,31 @@
 
 #include "bricks/types.glsl"
 
-// Words of a brick.
+// Number of words of a brick.
 const uint BRICKS_STRIDE = BRICKS_DEPTH == 0u ? 3u : 8u;
 
-// Bricks of one view with these numbers of columns, rows and slices, each a multiple of 4.
+// Returns the number of bricks of one view with these numbers of columns, rows and slices, each a multiple of
+// 4.
 uint bricks_count(uvec3 cells) {
     return (cells.x >> 2) * (cells.y >> 2) * (cells.z >> 2);
 }
 
-// Running index of the brick of a cell over all views.
+// Returns the running index of the brick of a cell over all views.
 uint bricks_index(uint view, ivec3 cell, uvec3 cells) {
     uvec3 brick = uvec3(cell) >> 2;
     uvec3 bricks = cells >> 2;
     return ((view * bricks.y + brick.y) * bricks.x + brick.x) * bricks.z + brick.z;
 }
 
-// The brick of that index within a view, in bricks.
+// Returns the place within its view of the brick with that index, in bricks.
 uvec3 bricks_place(uint brick, uvec3 cells) {
     uvec3 bricks = cells >> 2;
     uint line = brick / bricks.z;
     return uvec3(line % bricks.x, line / bricks.x % bricks.y, brick % bricks.z);
 }
 
-// Index of the word of a brick, of the two words of its masks, and of those that only bricks have whose cells may be divided.
+// These functions return the index of the word of a brick, of the two words of its masks, and of the words
+// that only bricks have whose cells may be divided.
 uint bricks_at(uint brick) {
     return BRICKS_STRIDE * brick;
 }
@@ -53,12 +55,13 @@ uint bricks_place_at(uint brick) {
     return BRICKS_STRIDE * brick + 6u;
 }
 
-// Index of the word of an empty brick of a view that says how far its layer of columns and slices is empty.
+// Returns the index of the word of an empty brick of a view that tells how far its layer of columns and
+// slices is empty.
 uint bricks_layer_at(uint brick) {
     return BRICKS_STRIDE * brick + 6u;
 }
 
-// The one of the mask's two words that holds a cell's bit, and the number of that bit.
+// These functions return which of the mask's two words holds a cell's bit, and the number of that bit.
 uint bricks_word(ivec3 cell) {
     return uint(cell.z >> 1) & 1u;
 }
@@ -67,17 +70,17 @@ uint bricks_bit(ivec3 cell) {
     return uint((cell.x & 3) | (cell.y & 3) << 2 | (cell.z & 1) << 4);
 }
 
-// The cell of a bit, within its brick.
+// Returns the cell of a bit, within its brick.
 ivec3 bricks_cell_of_bit(uint word, uint bit) {
     return ivec3(bit & 3u, bit >> 2 & 3u, bit >> 4 | word << 1);
 }
 
-// Bits of the 2x2x2 cells around a cell, in the word of its bit.
+// Returns the bits of the 2x2x2 cells around a cell, in the word of its bit.
 uint bricks_octet(ivec3 cell) {
     return 0x00330033u << uint((cell.x & 2) | (cell.y & 2) << 2);
 }
 
-// Bits of the cells of a brick between two of them.
+// Returns the bits of the cells of a brick between two cells.
 uvec2 bricks_cells_between(ivec3 first, ivec3 last) {
     uint column = (2u << last.x) - (1u << first.x);
     uint rows = 0x1111u & (16u << 4 * last.y) - (1u << 4 * first.y);
@@ -86,9 +89,9 @@ uvec2 bricks_cells_between(ivec3 first, ivec3 last) {
     return uvec2(slices.x | slices.y << 16, slices.z | slices.w << 16);
 }
 
-// First and last of the empty cells of a brick that a ray crosses in one step from an empty one, all of them within the brick:
-// 2x2x2 where those are, and as far as the brick where all cells ahead are empty, one axis after the other. `mask` has the bits
-// of cells that are not.
+// Finds the first and last of the empty cells of a brick that a ray crosses in one step from an empty one,
+// all of them within the brick: 2x2x2 if those are empty, and up to the end of the brick if all cells ahead
+// are empty, one axis after another. `mask` has the bits of cells that are not empty.
 void bricks_empty_cells(uvec2 mask, ivec3 cell, bvec3 up, out ivec3 first, out ivec3 last) {
     bool around = (mask[bricks_word(cell)] & bricks_octet(cell)) == 0u;
     first = around ? cell & ~1 : cell;
@@ -106,7 +109,7 @@ void bricks_empty_cells(uvec2 mask, ivec3 cell, bvec3 up, out ivec3 first, out i
     }
 }
 
-// Bits of the cells of a column of a brick, from the first slice to the last of it.
+// Returns the bits of the cells of a column of a brick, from its first slice to its last.
 uvec2 bricks_column_bits(uvec2 column, uint first, uint last) {
     uint bit = (column.x & 3u) | (column.y & 3u) << 2;
     uvec2 bits = uvec2(0u);
@@ -117,7 +120,7 @@ uvec2 bricks_column_bits(uvec2 column, uint first, uint last) {
     return bits;
 }
 
-// Takes a cell out of a mask; false where none is left.
+// Takes a cell out of a mask; false if none is left.
 bool bricks_take_cell(inout uvec2 mask, out uint word, out uint bit) {
     word = mask.x != 0u ? 0u : 1u;
     bit = uint(findLSB(mask[word]));
@@ -126,13 +129,13 @@ bool bricks_take_cell(inout uvec2 mask, out uint word, out uint bit) {
     return any_left;
 }
 
-// Bits of a mask below that one.
+// Returns the number of bits of a mask below that one.
 uint bricks_rank(uvec2 mask, uint word, uint bit) {
     uint below = (1u << bit) - 1u;
     return uint(word != 0u ? bitCount(mask.x) + bitCount(mask.y & below) : bitCount(mask.x & below));
 }
 
-// The octant towards which a ray steps; each of its three directions is up or down.
+// Returns the octant towards which a ray steps; each of its three directions is up or down.
 uint bricks_octant(bvec3 up) {
     return (up.z ? 1u : 0u) | (up.x ? 2u : 0u) | (up.y ? 4u : 0u);
 }
@@ -141,12 +144,14 @@ bool bricks_is_empty(uint word) {
     return (word & BRICKS_EMPTY) != 0u;
 }
 
-// Bricks beyond an empty one, along each axis towards an octant, that are empty too: 0 to 7.
+// Returns the number of bricks beyond an empty one, along each axis towards an octant, that are empty too: 0
+// to 7.
 int bricks_distance(uint word, uint octant) {
     return int(word >> (3u * octant) & 7u);
 }
 
-// Bricks beyond an empty one, along columns and slices towards an octant, that are empty too in its own row.
+// Returns the number of bricks beyond an empty one, along columns and slices towards an octant, that are
+// empty too in its own row.
 int bricks_layer_distance(uint word, uint octant) {
     return int(word >> (4u * (octant & 3u)) & 15u) - 1;
 }

@@ -29,7 +29,8 @@ uint brute_trace(BruteRef s, Ray ray, inout TraceState state, bool any_hit) {
     return state.best.primitive == PRIMITIVE_NONE ? TRACE_MISS : TRACE_HIT;
 }
 
-// There is nothing to build, but indices may have to be gathered and triangles to be counted.
+// Returns the status: there is nothing to build, but indices may have to be gathered and triangles to be
+// counted.
 uint brute_status(BruteRef s) {
     bool is_readable = geometry_header.stamp != 0u && (geometry_header.stamp & GEOMETRY_NOT_GATHERED) == 0u;
     return is_readable ? geometry_header.stamp | STATUS_COMPLETE : 0u;

@@ -22,14 +22,16 @@ POOL_WORDS(bvh, scratch, 3)
 #define BVH_RECORD_VECTORS(s) POOL_VIEW_OF(bvh, record_vectors, BVH_HEADER(s).records_address)
 #define BVH_POOL(s, pool) POOL_WORDS_OF(bvh, pool, BVH_HEADER(s))
 
-// Adds to the references with an invalid index, which readers count for themselves: an atomic in a loop costs time.
+// Adds to the count of references with an invalid index. Readers count faults for themselves, because an
+// atomic in a loop costs time.
 void bvh_count_corrupted(BvhRef s, uint corrupted) {
     if (corrupted != 0u) {
         atomicAdd(BVH_HEADER(s).corrupted, corrupted);
     }
 }
 
-// Children of a node as a ray along these axes reaches them, side by side: sides, then references.
+// Children of a node in the order in which a ray along these axes reaches their sides: sides, then
+// references.
 struct BvhChildren {
     vec4 first_x;           // sides that it reaches first
     vec4 last_x;            // sides that it reaches last
@@ -40,8 +42,8 @@ struct BvhChildren {
     uvec4 references;       // BVH_NONE where there is no child
 };
 
-// The children of a node, read as whole vectors. A node of two children has none in the last two places. An index past the
-// end is counted and gives a node without children.
+// Reads the children of a node as whole vectors. A node of two children has none in the last two places. An
+// index past the end is counted and gives a node without children.
 BvhChildren bvh_children(BvhRef s, uint node, bvec3 descends, inout uint corrupted) {
     if (node >= BVH_HEADER(s).node_capacity) {
         corrupted += 1u;
@@ -49,7 +51,8 @@ BvhChildren bvh_children(BvhRef s, uint node, bvec3 descends, inout uint corrupt
         return BvhChildren(far, far, far, far, far, far, uvec4(BVH_NONE));
     }
     if (BVH_CHILDREN == BVH_FOUR) {
-        // Lower sides stand before upper ones, so choosing the place is cheaper than choosing between both.
+        // Lower sides stand before upper ones, so that choosing the place is cheaper than choosing between
+        // both.
         uvec3 first = 8u * node + uvec3(0u, 2u, 4u) + uvec3(descends);
         uvec3 last = first ^ 1u;
         return BvhChildren(
@@ -72,7 +75,7 @@ BvhChildren bvh_children(BvhRef s, uint node, bvec3 descends, inout uint corrupt
         uvec4(lower_0.w, upper_0.w, uvec2(BVH_NONE)));
 }
 
-// The link by which a node is reached.
+// Returns the link by which a node is reached.
 uint bvh_parent(BvhRef s, uint node) {
     if (node >= BVH_HEADER(s).node_capacity) {
         return BVH_NONE;
@@ -80,7 +83,7 @@ uint bvh_parent(BvhRef s, uint node) {
     return BVH_CHILDREN == BVH_FOUR ? BVH_NODES_OF_FOUR(s)[node].parent : BVH_NODES(s)[node].parent;
 }
 
-// The child that a link refers to.
+// Returns the child that a link refers to.
 uint bvh_child(BvhRef s, uint link) {
     uint node = link / BVH_CHILDREN;
     if (node >= BVH_HEADER(s).node_capacity) {
@@ -93,17 +96,17 @@ uint bvh_child(BvhRef s, uint link) {
     return slot == 0u ? BVH_NODES(s)[node].child_0 : BVH_NODES(s)[node].child_1;
 }
 
-// The first record of a leaf.
+// Returns the first record of a leaf.
 uint bvh_leaf_first(uint reference) {
     return reference & ((1u << BVH_LEAF_SHIFT) - 1u);
 }
 
-// Records of a leaf.
+// Returns the number of records of a leaf.
 uint bvh_leaf_count(uint reference) {
     return ((reference & ~BVH_LEAF) >> BVH_LEAF_SHIFT) + 1u;
 }
 
-// A triangle, read as whole vectors. An index past the end is counted and gives a triangle without area.
+// Reads a triangle as whole vectors. An index past the end is counted and gives a triangle without area.
 BvhRecord bvh_record(BvhRef s, uint record, inout uint corrupted) {
     if (record >= BVH_HEADER(s).record_capacity) {
         corrupted += 1u;
@@ -123,13 +126,14 @@ void bvh_set_record(BvhRef s, uint record, BvhRecord value) {
     }
 }
 
-// Place in the pool of a node of two children, in such nodes: behind the nodes of four that are made of them, where there are.
+// Returns the place in the pool of a node of two children, counted in such nodes: behind the nodes of four
+// that are made of them, if there are any.
 uint bvh_pair_place(BvhRef s, uint node) {
     return BVH_CHILDREN == BVH_FOUR ? 2u * BVH_HEADER(s).node_capacity + node : node;
 }
 
-// A node of two children, read member by member, as an invocation reads what it wrote itself. An index past the end gives one
-// over the first record.
+// Reads a node of two children member by member, as an invocation reads its own writes. An index past the end
+// gives a node over the first record.
 BvhNode bvh_node(BvhRef s, uint node) {
     if (node >= BVH_HEADER(s).pair_capacity) {
         return BvhNode(vec3(0.0), BVH_LEAF, vec3(0.0), BVH_LEAF, vec3(0.0), BVH_NONE, vec3(0.0), 0u);
@@ -137,14 +141,14 @@ BvhNode bvh_node(BvhRef s, uint node) {
     return BVH_NODES(s)[bvh_pair_place(s, node)];
 }
 
-// Sets all of a node of two.
+// Sets all members of a node of two.
 void bvh_set_node(BvhRef s, uint node, BvhNode value) {
     if (node < BVH_HEADER(s).pair_capacity) {
         BVH_NODES(s)[bvh_pair_place(s, node)] = value;
     }
 }
 
-// Sets both children of a node of two. Boxes are left as they are.
+// Sets both children of a node of two. Boxes stay unchanged.
 void bvh_set_children(BvhRef s, uint node, uint child_0, uint child_1) {
     if (node < BVH_HEADER(s).pair_capacity) {
         uint place = bvh_pair_place(s, node);
@@ -183,7 +187,8 @@ void bvh_set_box(BvhRef s, uint link, vec3 lower, vec3 upper) {
     }
 }
 
-// Sets the children of a node of four and their boxes, side by side. The link by which it is reached is left as it is.
+// Sets the children of a node of four and their boxes, side by side. The link by which the node is reached
+// stays unchanged.
 void bvh_set_children_of_four(BvhRef s, uint node, uvec4 children, mat3x4 lower, mat3x4 upper) {
     if (node >= BVH_HEADER(s).node_capacity) {
         return;
@@ -214,7 +219,7 @@ void bvh_set_scratch(BvhRef s, uint word, uint value) {
     }
 }
 
-// Three words that follow each other, as a point.
+// Reads three consecutive words as a point.
 vec3 bvh_scratch_point(BvhRef s, uint word) {
     if (word + 3u > BVH_HEADER(s).scratch_capacity) {
         return vec3(0.0);
@@ -230,7 +235,7 @@ void bvh_set_scratch_point(BvhRef s, uint word, vec3 point) {
     }
 }
 
-// Adds to a word that others add to at the same time, and answers what it was.
+// Adds to a word that others add to at the same time, and returns the value before.
 uint bvh_add_scratch(BvhRef s, uint word, uint value) {
     if (word >= BVH_HEADER(s).scratch_capacity) {
         return 0u;

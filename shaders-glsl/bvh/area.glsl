@@ -6,13 +6,13 @@
 #include "ads/placement.glsl"
 #include "bvh/build.glsl"
 
-// Lengths of the scene in a metre, 0 or more.
+// Returns the number of scene lengths in a metre, 0 or more.
 float scene_lengths_per_metre() {
     float extent = largest_axis(BVH_HEADER(build.structure).upper - BVH_HEADER(build.structure).lower);
     return 1.0 / max(extent, 1.1754944e-38);
 }
 
-// Half the area of a box in squares of the scene's length, so that it does not overflow.
+// Returns half the area of a box in squares of the scene's length, so that it does not overflow.
 float area(vec3 lower, vec3 upper, float per_metre) {
     vec3 side = (upper - lower) * per_metre;
     return side.x * side.y + side.y * side.z + side.z * side.x;

@@ -6,10 +6,10 @@
 
 #include "bvh/accessors.glsl"
 
-// The key of a child that is not to be entered.
+// Key of a child that is not to be entered.
 #define BVH_NO_KEY 0xFFFFFFFFu
 
-// A ray as boxes meet it, by the sides that it reaches first and last along each axis.
+// Ray in the form for tests of boxes, with the sides that it reaches first and last along each axis.
 struct BvhRay {
     vec3 origin_first;    // the origin moved by the margin: first sides are seen from here
     vec3 origin_last;     // the origin moved by the margin the other way: last sides are seen from here
@@ -23,9 +23,9 @@ float bvh_inverse(float component, float smallest) {
     return 1.0 / (component < 0.0 ? -size : size);
 }
 
-// `lower` and `upper` hold all triangles of the tree: one margin serves all its boxes. A direction without a component along an
-// axis is treated as having a tiny one: over the length of the boxes hit it moves the ray by less than the margin, and no
-// product below can become 0 times infinity.
+// Makes the ray. `lower` and `upper` hold all triangles of the tree, so that one margin serves all its boxes.
+// A direction without a component along an axis is taken to have a tiny one: over the length of the boxes hit
+// it moves the ray by less than the margin, and no product below can become 0 times infinity.
 BvhRay bvh_ray(vec3 origin, vec3 direction, float t_min, vec3 lower, vec3 upper) {
     float largest = max(abs(direction.x), max(abs(direction.y), abs(direction.z)));
     float smallest = max(largest * BVH_DIRECTION_FLOOR, 1.1754944e-38);
@@ -42,9 +42,9 @@ BvhRay bvh_ray(vec3 origin, vec3 direction, float t_min, vec3 lower, vec3 upper)
         descends);
 }
 
-// Keys of a node's children: the t at which the ray enters the child's box, with the child's number in its two lowest bits.
-// They order the children by ray and boxes alone, always in the same way. `entered`: whether there is such a child, whose box
-// the ray hits, and not behind `farthest`.
+// Returns the keys of a node's children: the t at which the ray enters the child's box, with the child's
+// number in its two lowest bits. They order the children by ray and boxes alone, always in the same way.
+// `entered` tells for each place whether there is a child whose box the ray hits, not behind `farthest`.
 uvec4 bvh_keys(BvhRay ray, BvhChildren node, float farthest, out bvec4 entered) {
     precise vec4 first_x = (node.first_x - ray.origin_first.x) * ray.inverse.x;
     precise vec4 first_y = (node.first_y - ray.origin_first.y) * ray.inverse.y;
@@ -61,7 +61,7 @@ uvec4 bvh_keys(BvhRay ray, BvhChildren node, float farthest, out bvec4 entered) 
     return (floatBitsToUint(entry) & 0x7FFFFFFCu) | uvec4(0u, 1u, 2u, 3u);
 }
 
-// The t of a key, at most four units of rounding before the ray enters the child.
+// Returns the t of a key, at most four units of rounding before the ray enters the child.
 float bvh_entry(uint key) {
     return uintBitsToFloat(key & ~3u);
 }

@@ -10,7 +10,7 @@
 #include "bvh/names.glsl"
 #include "ads/build_constants.glsl"
 
-// Index of this invocation in groups of BVH_GROUP_SIZE, which fill two dimensions.
+// Returns the index of this invocation in groups of BVH_GROUP_SIZE, which fill two dimensions.
 uint bvh_invocation() {
     return gl_GlobalInvocationID.y * gl_NumWorkGroups.x * BVH_GROUP_SIZE + gl_GlobalInvocationID.x;
 }

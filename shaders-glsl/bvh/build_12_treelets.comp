@@ -14,8 +14,8 @@ void main() {
     }
     uint size_class = build.step % BVH_TREELET_CLASSES;
     float per_metre = scene_lengths_per_metre();
-    // Nothing below a chain belongs to another one, so this invocation reads what no other one writes. Numbers of records
-    // grow upwards, so it ends.
+    // Nothing below a chain belongs to another chain, so no other invocation writes what this one reads.
+    // Numbers of records grow upwards, so the loop ends.
     uint node = bvh_scratch(build.structure, chains_word(size_class) + place);
     do {
         restructure(node, per_metre);

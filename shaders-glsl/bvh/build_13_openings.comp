@@ -9,8 +9,8 @@
 
 layout(local_size_x = BVH_GROUP_SIZE) in;
 
-// Takes a node in place of what was chosen so far (0: nothing) where its box is larger. One is always chosen, so that only a
-// node over leaves has fewer children than four, also where areas are no numbers.
+// Takes a node in place of the choice so far (0: nothing) if its box is larger. One node is always chosen, so
+// that only a node over leaves has fewer children than four, even if areas are not numbers.
 void choose(uint reference, float of_box, uint bit, inout uint chosen, inout float largest) {
     if ((reference & BVH_LEAF) == 0u && (chosen == 0u || of_box > largest)) {
         chosen = bit;

@@ -18,8 +18,8 @@ void main() {
         bvh_set_scratch(build.structure, number_word(node), 0u);
         return;
     }
-    // True where this node becomes a node of four if the one that is looked at does, is opened as a child of one, or as
-    // a grandchild of one, which is opened no further.
+    // The flags tell whether this node becomes a node of four if the current node becomes one, is opened as a
+    // child of one, or is opened as a grandchild of one, which is opened no further.
     bvec3 becomes = bvec3(true, false, false);
     uint link = lowest.parent;
     while (link != BVH_NONE && any(becomes) && !all(becomes)) {
@@ -31,6 +31,6 @@ void main() {
             && opens_grandchild(bvh_scratch(build.structure, openings_word(link >> 1u)), link & 1u, slot);
         becomes = bvec3(by_child ? becomes.y : becomes.x, by_grandchild ? becomes.z : becomes.x, becomes.x);
     }
-    // The root becomes one.
+    // The root always becomes a node of four.
     bvh_set_scratch(build.structure, number_word(node), uint(becomes.x));
 }

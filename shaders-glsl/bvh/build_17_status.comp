@@ -9,7 +9,7 @@ layout(local_size_x = 1) in;
 
 void main() {
     uint triangles = BVH_HEADER(build.structure).triangle_count;
-    // One more than the nodes that so many triangles need at most: docs/systems/bvh.md, "Memory".
+    // The number is one more than the most nodes that so many triangles need: docs/systems/bvh.md, "Memory".
     uint nodes = BVH_CHILDREN == BVH_FOUR ? (2u * triangles + 2u) / 3u : triangles;
     bool fits = triangles <= BVH_HEADER(build.structure).record_capacity
         && nodes <= BVH_HEADER(build.structure).node_capacity + 1u

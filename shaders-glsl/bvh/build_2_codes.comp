@@ -9,8 +9,8 @@
 
 layout(local_size_x = BVH_GROUP_SIZE) in;
 
-// Cells of the grid per metre, the same along all axes, so that cells are cubes. Kept a normal number: what lies outside is
-// clamped to the grid, which costs quality but no hit.
+// Returns the number of cells of the grid per metre, equal along all axes, so that cells are cubes. It is
+// kept a normal number: points outside the grid are clamped to it, which costs quality but no hit.
 float cells_per_metre() {
     float extent = largest_axis(BVH_HEADER(build.structure).upper - BVH_HEADER(build.structure).lower);
     return clamp(BVH_CODE_CELLS / max(extent, 1.1754944e-38), 1.1754944e-38, PLACEMENT_LONGEST);

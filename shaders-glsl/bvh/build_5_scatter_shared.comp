@@ -10,7 +10,7 @@ layout(local_size_x = BVH_SORT_CHUNK) in;
 
 const uint WORDS = BVH_SORT_CHUNK / 32u;
 
-// By digit: which keys of the chunk have it.
+// Sets of the chunk's keys that have each digit, a bit per key.
 shared uint keys_with[BVH_DIGIT_VALUES * WORDS];
 
 void main() {

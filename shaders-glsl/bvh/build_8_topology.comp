@@ -7,7 +7,7 @@
 
 layout(local_size_x = BVH_GROUP_SIZE) in;
 
-// Length of the common prefix of the keys at two places; -1 where the second does not exist.
+// Returns the length of the common prefix of the keys at two places; -1 if the second place does not exist.
 int common_prefix(int place, int other) {
     if (other < 0 || other >= int(BVH_HEADER(build.structure).triangle_count)) {
         return -1;
@@ -16,7 +16,7 @@ int common_prefix(int place, int other) {
     return difference != 0u ? 31 - findMSB(difference) : 63 - findMSB(uint(place) ^ uint(other));
 }
 
-// The reference of a child; an inner node stores the link by which it is reached.
+// Returns the reference of a child; an inner node stores the link by which it is reached.
 uint adopt(int child, bool leaf, uint link) {
     if (leaf) {
         return BVH_LEAF | uint(child);

@@ -6,25 +6,26 @@
 
 #include "bvh/clusters.glsl"
 
-// Word with the first record of the cluster at a place, of rounds in turns.
+// Returns the word with the first record of the cluster at a place; rounds alternate between two lists.
 uint word_of(bool is_second, uint place) {
     return is_second ? round_word(place) : list_word(build.step, place);
 }
 
-// The first record of the cluster at a place; any where there is none.
+// Returns the first record of the cluster at a place; any record if there is no cluster.
 uint record_at(bool is_second, Part part, uint i) {
     return bvh_scratch(build.structure, word_of(is_second, part.first + min(i, part.count - 1u)));
 }
 
-// Lists the pairs of a round, at most `most` of them, and for the next round the clusters that are left. Answers how many pairs.
-// Near clusters are in registers, so each cluster is read once, and each area is found once.
+// Lists the pairs of a round, at most `most` of them, and for the next round the clusters that are left.
+// Returns the number of pairs. Near clusters are in registers, so that each cluster is read once, and each
+// area is computed once.
 uint list_pairs(bool is_second, bool every_two, Part part, uint most, float per_metre) {
-    // The cluster at `place`, those after it, and what is nearest to each so far.
+    // The array holds the cluster at `place` and those after it, each with its nearest cluster so far.
     Cluster clusters[BVH_CLUSTER_REACH + 1u];
     uint records[BVH_CLUSTER_REACH + 1u];
     uint nearest[BVH_CLUSTER_REACH + 1u];
     float smallest[BVH_CLUSTER_REACH + 1u];
-    // Records and nearest of those before it, the last one first.
+    // These are the records and nearest clusters of the clusters before it, the last one first.
     uint records_before[BVH_CLUSTER_REACH];
     uint nearest_before[BVH_CLUSTER_REACH];
     [[unroll]] for (uint i = 0u; i < BVH_CLUSTER_REACH; i++) {

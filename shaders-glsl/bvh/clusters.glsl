@@ -9,17 +9,17 @@
 
 #include "bvh/area.glsl"
 
-// A cluster, known by its first record: what is below it.
+// Cluster of records, known by its first record.
 struct Cluster {
     vec3 lower;
     vec3 upper;
     uint reference;
 };
 
-// A cluster that is nowhere near: unions with it have no finite area.
+// Cluster far from all others: unions with it have no finite area.
 const Cluster NO_CLUSTER = Cluster(vec3(-PLACEMENT_LONGEST), vec3(PLACEMENT_LONGEST), BVH_NONE);
 
-// The clusters of an invocation or workgroup.
+// Clusters of an invocation or workgroup.
 struct Part {
     uint number;
     uint first;     // place of the first one among those of the level
@@ -37,8 +37,9 @@ Part part_of(uint number) {
     return Part(number, first, count, total > BVH_CLUSTERS ? BVH_CLUSTERS_KEPT : 1u);
 }
 
-// Words with the first record of each cluster that a level begins with, and of those that it leaves, in turns; the same of every
-// second round; and the pairs that merge in a round. All take the place of the keys.
+// These functions return words of lists: of the first record of each cluster that a level begins with or
+// leaves, in turns; of the same in every second round; and of the pairs that merge in a round. All lists take
+// the place of the keys.
 uint list_word(uint level, uint place) {
     return (level & 1u) * BVH_HEADER(build.structure).triangle_count + place;
 }
@@ -81,8 +82,9 @@ float area_of_both(Cluster a, Cluster b, float per_metre) {
     return area(min(a.lower, b.lower), max(a.upper, b.upper), per_metre);
 }
 
-// Takes another cluster in place of the nearest so far where it is nearer, or as near and its place differs in lower bits: so
-// clusters in one place merge two by two. `best` begins as the place itself, which is also the answer where no area is a number.
+// Takes another cluster in place of the nearest so far if it is nearer, or as near and its place differs in
+// lower bits, so that clusters in one place merge two by two. `best` begins as the place itself, which is
+// also the result if no area is a number.
 void take_nearer(uint place, uint other, float of_both, inout uint best, inout float smallest) {
     if (of_both < smallest || (of_both == smallest && (place ^ other) < (place ^ best))) {
         best = other;
@@ -90,8 +92,8 @@ void take_nearer(uint place, uint other, float of_both, inout uint best, inout f
     }
 }
 
-// True if the next round merges every two clusters, near or not: where few merged, or none since no area is a number.
-// So rounds have a bound. The last few do not need that.
+// True if the next round merges every two clusters, near or not: if few merged, or none because no area is a
+// number. This bounds the number of rounds. The last few clusters do not need it.
 bool is_slow(uint count, uint merged) {
     return merged == 0u || (count > BVH_CLUSTERS_KEPT && merged < count / 16u);
 }
@@ -102,8 +104,8 @@ void adopt(uint reference, uint link) {
     }
 }
 
-// True where two leaves whose records follow each other cost no more as one by surface area, a triangle as much as a
-// node.
+// True if two leaves whose records are consecutive cost no more as one leaf by surface area, where a triangle
+// costs as much as a node.
 bool become_leaf(Cluster a, Cluster b, uint first_record_of_b, float per_metre) {
     uint count_a = bvh_leaf_count(a.reference);
     uint count_b = bvh_leaf_count(b.reference);
@@ -116,8 +118,8 @@ bool become_leaf(Cluster a, Cluster b, uint first_record_of_b, float per_metre) 
         <= float(count_a) * area(a.lower, a.upper, per_metre) + float(count_b) * area(b.lower, b.upper, per_metre);
 }
 
-// Makes a leaf or a node of two clusters, and answers the cluster of both. The first record of the second begins no cluster from
-// now on, so nodes are numbered by these.
+// Makes a leaf or a node of two clusters, and returns the cluster of both. The first record of the second
+// begins no cluster from now on, so that nodes are numbered by these records.
 Cluster joined(Cluster a, Cluster b, uint first_record_of_b, float per_metre) {
     uint node = first_record_of_b - 1u;
     if (become_leaf(a, b, first_record_of_b, per_metre)) {

@@ -10,7 +10,7 @@
 
 layout(local_size_x = DRIVER_GROUP_SIZE) in;
 
-// Margins of a box, in those of rounding.
+// Margin of a box, in multiples of the rounding.
 #define DRIVER_MARGINS 4.0
 
 void store(uint box, vec3 lower, vec3 upper) {
@@ -27,8 +27,9 @@ void main() {
         return;
     }
     if (box >= geometry_triangle_count()) {
-        // Fewer than the host knows of. Boxes of NaN should be left out; Mesa 25's tree then answers with nothing. So they are a
-        // point at a corner of the bounds, and rays ignore them.
+        // The device may know fewer triangles than the host. Boxes of NaN should be left out by the driver,
+        // but Mesa 25's tree then finds nothing; therefore they are a point at a corner of the bounds, and
+        // rays ignore them.
         vec3 corner = DRIVER_HEADER(build.structure).upper * DRIVER_HEADER(build.structure).scale;
         store(box, corner, corner);
         return;

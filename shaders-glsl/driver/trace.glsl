@@ -37,7 +37,7 @@ void driver_trace_boxes(DriverRef s, Ray ray, vec3 origin, vec2 clip, float slac
         range.x, direction, range.y);
     float end = range.y;
     bool open = true;
-    // Two loops, since software drivers end each after 65,535 iterations.
+    // There are two loops, since software drivers end each after 65,535 iterations.
     while (open) {
         for (uint turn = 0u; open && turn < work_budget; turn++) {
             open = rayQueryProceedEXT(query);
@@ -47,7 +47,7 @@ void driver_trace_boxes(DriverRef s, Ray ray, vec3 origin, vec2 clip, float slac
             uint primitive = uint(rayQueryGetIntersectionPrimitiveIndexEXT(query, false));
             state.entries++;
             trace_log_visit(STEP_ENTRY, primitive, 0u, 0u, 0.0, 0.0);
-            // Boxes beyond the number of triangles are of none.
+            // Boxes beyond the number of triangles belong to none.
             if (primitive < count && test_anywhere(ray, primitive, state)) {
                 // Boxes that begin behind the best hit are left out.
                 float best = (state.best.t + slack) * longer * scale;
@@ -63,7 +63,7 @@ void driver_trace_boxes(DriverRef s, Ray ray, vec3 origin, vec2 clip, float slac
     rayQueryTerminateEXT(query);
 }
 
-// The whole ray.
+// Traces the whole ray.
 uint driver_trace(DriverRef s, Ray ray, inout TraceState state, bool any_hit) {
     vec3 origin = ray.origin - DRIVER_HEADER(s).centre;
     float reach = DRIVER_HEADER(s).reach;
@@ -74,7 +74,8 @@ uint driver_trace(DriverRef s, Ray ray, inout TraceState state, bool any_hit) {
         trace_log(STEP_SKIP, SKIP_BOUNDS, 0u, 0u, ray.t_min, ray.t_max);
         return TRACE_MISS;
     }
-    // From that far outside rounding exceeds the margins of boxes, and directions of subnormal numbers have no scale.
+    // Beyond this distance rounding exceeds the margins of boxes, and directions of subnormal numbers have no
+    // scale.
     bool is_near = largest_coordinate(origin) <= ORIGIN_LIMIT * reach;
     if (is_near && largest_coordinate(ray.direction) >= DRIVER_SMALLEST_NORMAL) {
         driver_trace_boxes(s, ray, origin, clip, slack, any_hit, state);

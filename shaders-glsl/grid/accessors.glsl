@@ -22,7 +22,7 @@ uint grid_cell_count(GridRef s) {
     return GRID_HEADER(s).cells[0] * GRID_HEADER(s).cells[1] * GRID_HEADER(s).cells[2];
 }
 
-// Index of the list of a cell; lists of a column are contiguous.
+// Returns the index of the list of a cell; lists of a column are contiguous.
 uint grid_list(ivec3 cell, uvec3 cells) {
     return (uint(cell.y) * cells.x + uint(cell.x)) * cells.z + uint(cell.z);
 }
@@ -31,12 +31,12 @@ BoxCells grid_box_cells(GridRef s) {
     return BoxCells(GRID_HEADER(s).cells_lower, GRID_HEADER(s).cells_per_metre, GRID_HEADER(s).rounding);
 }
 
-// Entries that are stored.
+// Returns the number of entries that are stored.
 uint grid_stored(GridRef s) {
     return min(GRID_HEADER(s).demand, GRID_HEADER(s).capacity);
 }
 
-// Words of scratch before the large-triangle queue.
+// Returns the number of words of scratch before the large-triangle queue.
 uint grid_scan_words(GridRef s) {
     return (grid_cell_count(s) + SCAN_BLOCK - 1u) / SCAN_BLOCK;
 }

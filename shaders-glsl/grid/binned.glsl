@@ -20,12 +20,12 @@
 
 #define bin_built build.structure
 
-// A column of cells along z is visited once.
+// Returns the number of views: a column of cells along z is visited once.
 uint bin_view_count() {
     return 1u;
 }
 
-// A triangle, and the first and last column that may hold any of it.
+// Triangle, with the first and last column that may hold any part of it.
 struct Bin {
     uint primitive;
     uvec3 cells;          // of the grid

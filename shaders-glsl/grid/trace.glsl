@@ -22,10 +22,10 @@
 #include "ads/listed.glsl"
 
 #define GRID_CURSOR_STARTED 0, 1
-// The list of the cell has not been begun.
+// Value of the next entry if the list of the cell has not been begun.
 #define GRID_LIST_BEGIN 0xFFFFFFFFu
 
-// Begin and end of the list of a cell. One that leaves the pool is counted and is empty.
+// Returns begin and end of the list of a cell. A list that leaves the pool is counted and is empty.
 uvec2 grid_entries(GridRef s, ivec3 cell, uvec3 cells, uint stored) {
     uint list = grid_list(cell, cells);
     uvec2 entries = uvec2(list == 0u ? 0u : GRID_POOL(s, lists)[list - 1u], GRID_POOL(s, lists)[list]);
@@ -45,13 +45,14 @@ void grid_test(GridRef s, uint primitive, Ray ray, inout TraceState state) {
     test_anywhere(ray, primitive, state);
 }
 
-// Follows the ray from `t` to `t_last`, or goes on where the cursor says. True if the budget ended first.
+// Follows the ray from `t` to `t_last`, or from the place in the cursor. Returns true if the budget ended
+// first.
 bool grid_trace_cells(GridRef s, Ray ray, vec3 origin, float t, float t_last, float slack, bool any_hit, inout TraceState state) {
     uvec3 cells = grid_cells(s);
     uint stored = grid_stored(s);
     BoxLine line = box_line(grid_box_cells(s), origin, ray.direction);
     bvec3 up = greaterThanEqual(line.direction, vec3(0.0));
-    // A finite end, also where the end of the geometry overflows.
+    // This makes the end finite, even if the end of the geometry overflows.
     t_last = min(t_last, 3.0e38);
     ivec3 cell;
     uint entry = GRID_LIST_BEGIN;
@@ -129,7 +130,7 @@ bool grid_trace_cells(GridRef s, Ray ray, vec3 origin, float t, float t_last, fl
     return paused;
 }
 
-// The whole ray.
+// Traces the whole ray.
 uint grid_trace(GridRef s, Ray ray, inout TraceState state, bool any_hit) {
     vec3 origin = ray.origin - GRID_HEADER(s).centre;
     float reach = GRID_HEADER(s).reach;
@@ -140,7 +141,7 @@ uint grid_trace(GridRef s, Ray ray, inout TraceState state, bool any_hit) {
         trace_log(STEP_SKIP, SKIP_BOUNDS, 0u, 0u, ray.t_min, ray.t_max);
         return TRACE_MISS;
     }
-    // From that far outside, rounding exceeds the margins of cells.
+    // Beyond this distance rounding exceeds the margins of cells.
     if (largest_coordinate(origin) > ORIGIN_LIMIT * reach) {
         uint work = 0u;
         uint place = state.cursor[3];

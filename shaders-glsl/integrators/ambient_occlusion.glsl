@@ -8,8 +8,8 @@
 #include "scene/random.glsl"
 #include "scene/spawn.glsl"
 
-// The ray of one sample, to be tested for occlusion: the sample is 1 if nothing is hit. `range` in
-// metres, +infinity for all. Inactive where the camera ray missed; the sample is 1 then.
+// Returns the ray of one sample, to be tested for occlusion: the sample is 1 if nothing is hit. `range` is in
+// metres, +infinity for all. The ray is inactive if the camera ray missed; the sample is 1 then.
 Ray ambient_occlusion_ray(Surface s, float range, uint pixel, uint sample_index) {
     if (s.valid == 0u) return ray_inactive();
     vec2 random = random_place(pixel, sample_index, random_dimension(0u, RANDOM_BSDF_U));

@@ -22,7 +22,7 @@ struct AovSurface {
 
 layout(set = INTEGRATOR_SET, binding = 9, scalar) writeonly buffer AovSurfaceBuffer { AovSurface aov_surfaces[]; };
 
-// Weights of vertices 1 and 2 at a point of the triangle with these corners; 0 where it has no area.
+// Returns the weights of vertices 1 and 2 at a point of the triangle with these corners; 0 if it has no area.
 vec2 weights_at(vec3 point, vec3 a, vec3 b, vec3 c) {
     vec3 ab = b - a;
     vec3 ac = c - a;

@@ -10,7 +10,7 @@
 #include "integrators/storage.glsl"
 #include "scene/camera.glsl"
 
-// Its size, and where the point is. Shared, 44 bytes.
+// Size of a cube map, and its point. Shared, 44 bytes.
 struct CubeMapHeader {
     uint resolution;          // texels along a side of a face, without its border
     vec3 position;            // metres relative to the frame origin
@@ -19,8 +19,8 @@ struct CubeMapHeader {
     uint upper_keys[3];       // upper corner of the same
 };
 
-// Face after face, row after row. Of face f, axis f / 2 is the largest of a direction, negative where f is odd; along a row
-// grows the next axis, from row to row the one after that.
+// Texels face after face, row after row. Axis f / 2 is the largest of a direction in face f, negative for odd
+// f; the next axis grows along a row, and the one after that from row to row.
 layout(set = INTEGRATOR_SET, binding = 11, scalar) readonly buffer CubeMapTexelBuffer { FilmPixel cube_map_texels[]; };
 #ifdef CUBE_MAP_HEADER_WRITTEN
 layout(set = INTEGRATOR_SET, binding = 12, scalar) buffer CubeMapHeaderBuffer { CubeMapHeader cube_map_header; };
@@ -30,7 +30,7 @@ layout(set = INTEGRATOR_SET, binding = 12, scalar) readonly buffer CubeMapHeader
 };
 #endif
 
-// The point, metres relative to the frame origin.
+// Returns the point of the cube map, metres relative to the frame origin.
 vec3 cube_map_position() {
     if (cube_map_header.is_given != 0u) return cube_map_header.position;
     if (cube_map_header.lower_keys[0] > cube_map_header.upper_keys[0]) return scene_frame().camera_position;
@@ -42,7 +42,7 @@ vec3 cube_map_position() {
     return 0.5 * (lower + upper);
 }
 
-// From the point through a place of a texel, uniform within it.
+// Returns a ray from the point through a place of a texel, uniform within the texel.
 Ray cube_map_ray(uint texel, uint sample_index) {
     uint side = cube_map_header.resolution + 2u;
     uint face = texel / (side * side);
@@ -61,14 +61,15 @@ Ray cube_map_ray(uint texel, uint sample_index) {
                frame.camera_ray_flags, 0.0, width * frame.footprint_scale);
 }
 
-// Radiance from a direction, W/(sr m^2). A texel has one sample, or none where that was not finite: it is black then.
+// Returns the radiance from a direction, W/(sr m^2). A texel has one sample, or none if that was not finite,
+// and is black then.
 vec3 cube_map_radiance(vec3 direction) {
     vec3 size = abs(direction);
     uint axis = size.x >= size.y && size.x >= size.z ? 0u : (size.y >= size.z ? 1u : 2u);
     vec2 across = vec2(direction[(axis + 1u) % 3u], direction[(axis + 2u) % 3u]) / size[axis];
     uint resolution = cube_map_header.resolution;
     uint side = resolution + 2u;
-    // In texels; their centres are at whole numbers.
+    // The place is in texels, whose centres are at whole numbers.
     vec2 place = (across + 1.0) * (0.5 * float(resolution)) + 0.5;
     uvec2 first = min(uvec2(place), uvec2(resolution));
     vec2 weight = place - vec2(first);

@@ -22,7 +22,8 @@
 #define FETCH_ACCESS
 #endif
 
-// The arguments of the draw, and counts. Shared, 36 bytes. Counts are of all fetches since the reset, modulo 2^32.
+// Arguments of the draw, and counts. Shared, 36 bytes. Counts are of all fetches since the reset, modulo
+// 2^32.
 struct FetchHeader {
     uint vertex_count;    // of the draw: three per triangle
     uint instance_count;  // of the draw: one per face and part of a list
@@ -36,13 +37,13 @@ struct FetchHeader {
 };
 
 layout(set = INTEGRATOR_SET, binding = 0, scalar) FETCH_ACCESS buffer FetchHeaderBuffer { FetchHeader fetch_header; };
-// For each pixel: where its list begins, and its hits.
+// List of each pixel: its begin, and its number of hits.
 layout(set = INTEGRATOR_SET, binding = 1, scalar) FETCH_ACCESS buffer FetchPixelBuffer { uvec2 fetch_pixels[]; };
-// For each slot of the queue with a hit: its pixel, and its place in the list.
+// Place of each slot of the queue with a hit: its pixel, and its place in the list.
 layout(set = INTEGRATOR_SET, binding = 2, scalar) FETCH_ACCESS buffer FetchSlotBuffer { uvec2 fetch_slots[]; };
-// The slots of all lists.
+// Slots of all lists.
 layout(set = INTEGRATOR_SET, binding = 3, scalar) FETCH_ACCESS buffer FetchListBuffer { uint fetch_lists[]; };
-// A bit per triangle.
+// Mask with a bit per triangle.
 layout(set = INTEGRATOR_SET, binding = 4, scalar) FETCH_ACCESS buffer FetchMaskBuffer { uint fetch_mask[]; };
 
 // The slots, and the cube that they are drawn onto. 12 bytes.
@@ -52,21 +53,23 @@ layout(push_constant, scalar) uniform FetchConstants {
     uint step;            // FETCH_*
 } fetch;
 
-// Metres: how far a computed hit may be from its triangle, both relative to the centre of the cube.
+// Returns the largest distance of a computed hit from its triangle, both relative to the centre of the cube,
+// metres.
 float fetch_rounding(vec3 centre) {
     return TRIANGLE_ROUNDING * box_reach(geometry_header.lower - centre, geometry_header.upper - centre);
 }
 
-// Metres: half the side of the box around the centre in which that may be a quarter of a pixel or more.
+// Returns half the side of the box around the centre in which that distance may be a quarter of a pixel or
+// more, metres.
 float fetch_near(float rounding) {
     return max(4.0 * float(fetch.side) * rounding, PLACEMENT_SMALLEST);
 }
 
-// The pixel of a point relative to the centre.
+// Returns the pixel of a point relative to the centre.
 uint fetch_pixel(vec3 point) {
     uint face = face_of(point);
     vec3 p = face_from_world(point, face);
-    // A point at the centre may be in any pixel: triangles as near are drawn over all of them.
+    // A point at the centre may be in any pixel; triangles as near are drawn over all pixels.
     vec2 place = p.z > 0.0 ? p.xy / p.z : vec2(0.0);
     ivec2 pixel = clamp(ivec2(floor((0.5 * place + 0.5) * float(fetch.side))), ivec2(0), ivec2(fetch.side) - 1);
     return (face * fetch.side + uint(pixel.y)) * fetch.side + uint(pixel.x);

@@ -11,7 +11,7 @@
 
 layout(location = 0) flat out uvec3 primitive_face_part;
 
-// True if the box of the triangle reaches into that of this half side around the centre.
+// True if the box of the triangle reaches into the box of this half side around the centre.
 bool is_near(vec3 a, vec3 b, vec3 c, float half_side) {
     return all(lessThanEqual(min(a, min(b, c)), vec3(half_side)))
         && all(greaterThanEqual(max(a, max(b, c)), vec3(-half_side)));
@@ -40,8 +40,8 @@ void main() {
         gl_Position = vec4(coverage_rectangle(vec4(-1.0, -1.0, 1.0, 1.0), corner), 0.5, 1.0);
         return;
     }
-    // The centre of every pixel in which a hit may be: half a pixel to its sides, rounding, and 1/32 of a pixel for the
-    // hardware's grid.
+    // The margin covers the centre of every pixel in which a hit may be: half a pixel to its sides, rounding,
+    // and 1/32 of a pixel for the hardware's grid.
     float margin = (1.0 + 1.0 / 16.0) / float(fetch.side) + 4.0 * rounding / max(min(a.z, min(b.z, c.z)), near);
     gl_Position = coverage_proposal_within(a, b, c, corner, fetch.side, margin);
 }

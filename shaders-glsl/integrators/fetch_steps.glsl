@@ -7,7 +7,7 @@
 #include "integrators/fetch.glsl"
 #include "scene/accessors.glsl"
 
-// The hit relative to the centre: differences of positions are rounded relative to themselves.
+// Returns the hit relative to the centre: differences of positions are rounded relative to themselves.
 vec3 hit_from_centre(Hit hit, vec3 centre) {
     vec3 a;
     vec3 b;

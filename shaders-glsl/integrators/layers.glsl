@@ -16,8 +16,8 @@ struct LayersState {
     uint passed;          // surfaces so far
 };
 
-// The ray behind a surface (valid 0: none was hit), inactive where the ray has ended. `cut`: it ended because it would have
-// passed more than PATH_LAYER_LIMIT surfaces.
+// Returns the ray behind a surface (valid 0: none was hit), inactive if the ray has ended. `cut` if it ended
+// because it would have passed more than PATH_LAYER_LIMIT surfaces.
 Ray layers_step(inout LayersState state, Ray ray, Surface s, out bool cut) {
     cut = state.passed >= PATH_LAYER_LIMIT && s.valid != 0u;
     if (cut) return ray_inactive();
@@ -31,7 +31,7 @@ Ray layers_step(inout LayersState state, Ray ray, Surface s, out bool cut) {
         if (!(state.left > 0.0)) return ray_inactive();
         if (state.passed < wave.limit) {
             Ray next = spawn_ray(s, direction, uintBitsToFloat(0x7F800000u));
-            // It stays a camera ray, which passes the backs that camera rays pass.
+            // The ray stays a camera ray, which passes the backs that camera rays pass.
             next.flags = ray.flags;
             next.cone_width = ray.cone_width + ray.cone_spread * (s.t * speed);
             next.cone_spread = ray.cone_spread;

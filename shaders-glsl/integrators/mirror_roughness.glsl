@@ -5,7 +5,7 @@
 
 #include "scene/constants.glsl"
 
-// Surfaces less rough than this are, as all below BSDF_SMOOTH_ROUGHNESS are.
+// Roughness below which surfaces are perfectly smooth, as all below BSDF_SMOOTH_ROUGHNESS are.
 layout(constant_id = 105) const float WHITTED_MIRROR_ROUGHNESS = BSDF_SMOOTH_ROUGHNESS;
 
 bool mirror_is_smooth(float roughness) {

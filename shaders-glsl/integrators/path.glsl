@@ -24,14 +24,15 @@ PathState path_begin(uint pixel, uint sample_index) {
     return PathState(vec3(1.0), pixel, vec3(0.0), sample_index, 0.0, MATERIAL_NONE, 0u, 0u, 0u, 0.0);
 }
 
-// Multiple-importance-sampling weight of a technique with density `used`, combined with one of density `other`.
+// Returns the multiple-importance-sampling weight of a technique with density `used`, combined with one of
+// density `other`.
 float path_power_heuristic(float used, float other) {
     if (!(other > 0.0)) return 1.0;
     float ratio = other / used;
     return 1.0 / (1.0 + ratio * ratio);
 }
 
-// Transmittance of `distance` metres of a material.
+// Returns the transmittance of `distance` metres of a material.
 vec3 path_transmittance(uint material_index, float distance) {
     Material material = scene_material(material_index);
     if (!(material.attenuation_distance < 3.0e38) || !(material.attenuation_distance > 0.0)) return vec3(1.0);
@@ -39,11 +40,11 @@ vec3 path_transmittance(uint material_index, float distance) {
     return pow(color, vec3(distance / material.attenuation_distance));
 }
 
-// PathState.bsdf_pdf where the last scatterings were perfectly smooth and one before them was not: photons bring the light
-// that light samples know.
+// Value of PathState.bsdf_pdf if the last scatterings were perfectly smooth and one before them was not:
+// photons bring the light that light samples know.
 #define PATH_PDF_OF_PHOTONS -1.0
 
-// Weight of emission hit by the ray of the last scattering.
+// Returns the weight of emission hit by the ray of the last scattering.
 float path_emission_weight(PathState state, float light_pdf) {
 #ifdef PATH_GATHERS
     if (state.bsdf_pdf < 0.0) return light_pdf > 0.0 ? 0.0 : 1.0;
@@ -56,7 +57,7 @@ bool path_is_pane(Surface s) {
     return s.transmission > 0.0 && s.thickness <= 0.0 && s.roughness < BSDF_SMOOTH_ROUGHNESS;
 }
 
-// Asks for the light of a sample that was chosen, which the surface reflects as `towards` says.
+// Asks for the light of a chosen sample, which the surface reflects by `towards`.
 void path_ask_light(PathState state, Surface s, LightSample light, BsdfValue towards, inout PathStep asked) {
     float weight = (light.flags & SAMPLE_DELTA) != 0u ? 1.0 : path_power_heuristic(light.pdf, towards.pdf);
     vec3 pending = state.throughput * towards.value * light.radiance * (weight / light.pdf);
@@ -73,8 +74,8 @@ bool path_chooses(inout PathState state, float probability) {
     return random_float(state.pixel, state.sample_index, dimension) < probability;
 }
 
-// Continues in the same direction behind a surface. That is no scattering: shadow rays go straight through surfaces, too,
-// so the density of the last scattering still says how an emitter is found.
+// Continues in the same direction behind a surface. That is not a scattering: shadow rays go straight through
+// surfaces, too, so the density of the last scattering still tells how an emitter is found.
 void path_pass(inout PathState state, Ray ray, Surface s, vec3 direction, float distance, float footprint,
                inout PathStep asked) {
     if (state.passed >= PATH_LAYER_LIMIT) {
@@ -84,14 +85,15 @@ void path_pass(inout PathState state, Ray ray, Surface s, vec3 direction, float 
     state.passed += 1u;
     state.travelled += distance;
     asked.next_ray = spawn_ray(s, direction, PATH_INFINITY);
-    // The ray goes on as the one that it is: a camera ray passes the backs that camera rays pass.
+    // The ray keeps its kind: a camera ray passes the backs that camera rays pass.
     asked.next_ray.flags = ray.flags;
     asked.next_ray.cone_width = footprint;
     asked.next_ray.cone_spread = ray.cone_spread;
 }
 
-// Goes straight through a smooth thin pane with the probability of the light that it lets through, or else makes up for
-// what does. True where the path went through. `terms` are of the pane and the direction from which it is seen.
+// Goes straight through a smooth thin pane with the probability of the light that it lets through, or else
+// compensates for that light. Returns true if the path went through. `terms` are of the pane and the
+// direction from which it is seen.
 bool path_pass_pane(inout PathState state, Ray ray, Surface s, BsdfTerms terms, vec3 direction, float distance,
                     float footprint, inout PathStep asked) {
     vec3 straight = bsdf_straight(terms);
@@ -106,17 +108,18 @@ bool path_pass_pane(inout PathState state, Ray ray, Surface s, BsdfTerms terms, 
     return false;
 }
 
-// Share of the light that goes straight through a surface towards the unit `o`.
+// Returns the share of the light that goes straight through a surface towards the unit `o`.
 vec3 path_straight_share(Surface s, vec3 o) {
     vec3 share = vec3(0.0);
     if (SHADING_PANES && path_is_pane(s)) share = s.opacity * bsdf_straight(bsdf_terms(s, o));
     return SHADING_BLEND ? share + (1.0 - s.opacity) : share;
 }
 
-// One step of a shadow ray where surfaces let light pass: `ray` was traced for its closest hit, `s` is the surface that
-// it hit (valid 0: none), `target` where it ends if its length is finite. Takes from `pending` what the surface stops,
-// and answers the ray from there on; inactive where it has ended: light that arrives was added to the state then. `cut` as
-// in PathStep. state.passed counts for this ray: it is 0 when the ray starts, and the caller's to clear when it has ended.
+// Makes one step of a shadow ray where surfaces let light pass: `ray` was traced for its closest hit, `s` is
+// the surface that it hit (valid 0: none), `target` its end if its length is finite. Takes the light that the
+// surface stops from `pending`, and returns the ray from there on; inactive if the ray has ended, and light
+// that arrives was added to the state then. `cut` as in PathStep. state.passed counts for this ray: it is 0
+// when the ray starts, and the caller must clear it when the ray has ended.
 Ray path_shadow_step(inout PathState state, Ray ray, Surface s, vec3 target, inout vec3 pending, out uint cut) {
     cut = 0u;
     if (s.valid == 0u) {
@@ -140,7 +143,7 @@ Ray path_shadow_step(inout PathState state, Ray ray, Surface s, vec3 target, ino
     return next;
 }
 
-// Scatters; next_ray stays inactive where the path ends.
+// Scatters the path; next_ray stays inactive if the path ends.
 void path_scatter(inout PathState state, Ray ray, Surface s, BsdfSample chosen, float footprint, inout PathStep asked) {
     if (chosen.flags == 0u) return;
     state.throughput *= chosen.weight;
@@ -169,8 +172,8 @@ void path_scatter(inout PathState state, Ray ray, Surface s, BsdfSample chosen, 
                                        : max(ray.cone_spread, 0.5 * s.roughness * s.roughness);
 }
 
-// One step of a path: `ray` was traced, `s` is the surface it hit (valid 0: none). Adds emission to the state and
-// asks for a shadow ray and a next ray; the path has ended where next_ray.t_max < 0.
+// Makes one step of a path: `ray` was traced, `s` is the surface it hit (valid 0: none). Adds emission to the
+// state and asks for a shadow ray and a next ray; the path has ended if next_ray.t_max < 0.
 PathStep path_step(inout PathState state, Ray ray, Surface s, uint max_bounces) {
     PathStep asked = PathStep(ray_inactive(), ray_inactive(), vec3(0.0), vec3(0.0), 0u);
     float speed = length(ray.direction);
@@ -192,14 +195,14 @@ PathStep path_step(inout PathState state, Ray ray, Surface s, uint max_bounces) 
     if (largest_component(s.emission) > 0.0) {
         float weight = 1.0;
         if (state.bsdf_pdf != 0.0) {
-            // Point of the last scattering.
+            // The origin is the point of the last scattering.
             vec3 origin = SHADING_PASSES ? ray.origin - state.travelled * direction : ray.origin;
             weight = path_emission_weight(state, light_pdf_emitter(s.primitive, origin, s.position));
         }
         state.radiance += state.throughput * s.emission * weight;
     }
 #ifdef PATH_GATHERS
-    // The ray of a rough surface looks for emission alone: photons brought it all other light.
+    // The ray of a rough surface looks only for emission: photons brought it all other light.
     if (PHOTONS_ARE_ALL && state.bsdf_pdf > 0.0) return asked;
 #endif
     Surface seen = s;

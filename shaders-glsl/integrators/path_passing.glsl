@@ -6,7 +6,7 @@
 
 #include "integrators/path_storage.glsl"
 
-// The next ray of a path that has shaded what its own ray hit: its shadow ray where it has one.
+// Returns the next ray of a path that has shaded the hit of its own ray: its shadow ray if it has one.
 Ray shade_path(uint slot, inout PathState state, Ray ray, Surface surface, out uint cut) {
     PathStep asked = path_step(state, ray, surface, wave.limit);
     cut = asked.cut;
@@ -19,7 +19,8 @@ Ray shade_path(uint slot, inout PathState state, Ray ray, Surface surface, out u
     return asked.shadow_ray;
 }
 
-// The next ray of a path whose shadow ray was traced: the shadow ray behind what it hit, or the path's own.
+// Returns the next ray of a path whose shadow ray was traced: the shadow ray behind its hit, or the path's
+// own.
 Ray shade_shadow(uint slot, inout PathState state, Ray ray, Surface surface, vec3 pending, out uint cut) {
     Ray next = path_shadow_step(state, ray, surface, path_waiting[slot].target, pending, cut);
     if (next.t_max < 0.0) {

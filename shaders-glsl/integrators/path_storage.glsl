@@ -9,7 +9,7 @@
 #include "integrators/path.glsl"
 #include "scene/surface.glsl"
 
-// The path of a slot; a new one in the first round.
+// Returns the path of a slot; a new one in the first round.
 PathState path_of(uint slot) {
     PathState state = path_begin(wave_pixel(slot), wave.sample_index);
     if (wave.round == 0u) return state;
@@ -39,8 +39,8 @@ void path_keep(uint slot, PathState state) {
     }
 }
 
-// Surface that the ray of a slot hit; a miss where it hit none. SURFACES_OF_HITS: the surface is that of the triangle,
-// and is looked up here; otherwise the queue has it.
+// Returns the surface that the ray of a slot hit; a miss if it hit none. With SURFACES_OF_HITS the surface is
+// that of the triangle, and is looked up here; otherwise the queue has it.
 Surface path_surface(uint slot, Ray ray) {
 #ifdef SURFACES_OF_HITS
     Hit hit = queue_hit(slot);

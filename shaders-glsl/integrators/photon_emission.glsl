@@ -7,10 +7,10 @@
 #include "integrators/photons.glsl"
 #include "scene/light.glsl"
 
-// The disk of light from afar is larger than what it covers by rounding.
+// Factor by which the disk of distant light is larger than the covered triangles, for rounding.
 #define PHOTON_DISK_MARGIN 1.001
 
-// A photon as it leaves a light.
+// Photon as it leaves a light.
 struct Emission {
     Ray ray;                  // inactive: nothing is emitted
     vec3 flux;                // W, over the probability of its choice
@@ -25,7 +25,7 @@ Ray emission_ray(vec3 origin, vec3 direction, uint primitive) {
     return Ray(origin, 0.0, direction, LIGHT_INFINITY, primitive, scene_frame().spawned_ray_flags, 0.0, 0.0);
 }
 
-// From a disk across the direction that covers all triangles, before all of them.
+// Emits from a disk perpendicular to the direction that covers all triangles, before all of them.
 Emission emission_from_afar(vec3 direction, vec3 irradiance, vec2 random) {
     vec3 centre = 0.5 * (geometry_header.lower + geometry_header.upper);
     float radius = 0.5 * length(geometry_header.upper - geometry_header.lower) * PHOTON_DISK_MARGIN;
@@ -45,7 +45,7 @@ Emission emission_punctual(Frame frame, float pick, vec2 random) {
     if (light.kind == LIGHT_DIRECTIONAL) {
         emission = emission_from_afar(light.direction, light.intensity, random);
     } else {
-        // Uniform over the cone around the direction in which it shines, or over the sphere.
+        // The direction is uniform over the cone around the light's direction, or over the sphere.
         bool spot = light.kind == LIGHT_SPOT;
         float least = spot ? max(-light.cone_offset / light.cone_scale, -1.0) : -1.0;
         float cosine = 1.0 - random.x * (1.0 - least);
@@ -61,7 +61,7 @@ Emission emission_punctual(Frame frame, float pick, vec2 random) {
     return emission;
 }
 
-// `random`: side, and two for the direction.
+// Emits from an emissive triangle. `random` holds the side, and two numbers for the direction.
 Emission emission_emissive(Frame frame, float pick, vec2 place, vec3 random) {
     uint entry = light_search_emissive(frame.emissive_count, pick);
     float share = light_emissive_share(entry);
@@ -90,7 +90,7 @@ Emission emission_sample(vec4 place, vec4 towards) {
     Frame frame = scene_frame();
     vec3 shares = frame.kind_shares;
     Emission emission = emission_none();
-    // Nothing has bounds then.
+    // Without triangles nothing has bounds.
     if (frame.triangle_count == 0u) return emission;
     float share;
     if (SHADING_LIGHTS && place.x < shares.x) {
@@ -112,14 +112,14 @@ Emission emission_sample(vec4 place, vec4 towards) {
     return emission;
 }
 
-// The radius and the side of a cell.
+// Returns the radius and the side of a cell.
 vec2 sizes_of_map() {
     vec3 lower = geometry_header.lower;
     vec3 upper = geometry_header.upper;
     float radius = wave.number;
     if ((wave.marks & PHOTON_RADIUS_IS_SHARE) != 0u) radius *= length(upper - lower);
     vec3 farthest = max(abs(lower), abs(upper));
-    // Positive also where nothing has any extent, and then nothing is lit.
+    // The radius is positive even if nothing has any extent, in which case nothing is lit.
     radius = max(radius, 1.0e-15);
     return vec2(radius, max(2.0 * radius, largest_component(farthest) / PHOTON_GRID_MOST));
 }

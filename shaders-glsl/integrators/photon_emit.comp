@@ -22,14 +22,14 @@ void main() {
         photon_header.radius = sizes.x;
         photon_header.cell = sizes.y;
     }
-    // Numbers of no pixel; those of one map are the samples of it.
+    // These numbers belong to no pixel; the paths of one map are its samples.
     uint pixel = PHOTON_PIXEL | wave.sample_index;
     vec4 place = random_vec4(pixel, slot, RANDOM_LENS_U);
     vec4 towards = random_vec4(pixel, slot, random_dimension(0u, RANDOM_LIGHT_KIND));
     Emission emission = emission_sample(place, towards);
     vec3 flux = emission.flux / float(wave.pixel_count);
     float most = largest_component(flux);
-    // Throughput is the share of the flux of the brightest channel. radiance: that flux, and the range.
+    // Throughput is the share of the flux of the brightest channel; radiance holds that flux, and the range.
     vec3 share = most > 0.0 ? flux / most : vec3(0.0);
     PathState state = PathState(share, pixel, vec3(most, emission.range, 0.0), slot, 0.0, MATERIAL_NONE, 0u, 0u, 0u, 0.0);
     path_states[slot] = state;

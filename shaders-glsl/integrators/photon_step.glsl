@@ -7,8 +7,8 @@
 #include "integrators/path_storage.glsl"
 #include "integrators/photons.glsl"
 
-// Paths that meet a shading normal count more or less light along `i` than photons that leave along it. 0 where paths from
-// there would not see the surface lit.
+// Returns the correction for a shading normal: paths that meet one count more or less light along `i` than
+// photons that leave along it. 0 if paths from there would not see the surface lit.
 float shading_normal_share(Surface s, vec3 o, vec3 i) {
     float arriving = dot(s.normal, o);
     float leaving = abs(dot(s.normal, i)) * dot(s.geometric_normal, o);
@@ -16,7 +16,7 @@ float shading_normal_share(Surface s, vec3 o, vec3 i) {
     return arriving * abs(dot(s.geometric_normal, i)) / leaving;
 }
 
-// One step of a photon: `ray` was traced, `s` is what it hit (valid 0: none).
+// Makes one step of a photon: `ray` was traced, `s` is its hit (valid 0: none).
 PathStep photon_step(uint slot, inout PathState state, Ray ray, Surface s) {
     PathStep asked = PathStep(ray_inactive(), ray_inactive(), vec3(0.0), vec3(0.0), 0u);
     if (s.valid == 0u) return asked;

@@ -9,12 +9,13 @@
 #include "integrators/storage.glsl"
 #include "scene/bsdf.glsl"
 
-// Most cells along an axis on each side of the origin.
+// Largest number of cells along an axis on each side of the origin.
 #define PHOTON_GRID_MOST 1048576.0
-// Largest number of a sum of PHOTON_GATHER_LIMIT of them.
+// Largest number of which PHOTON_GATHER_LIMIT can be added up.
 #define PHOTON_SUM_MOST 1.0e14
 
-// Photons come to any rough surface after any scattering; else to those met after perfectly smooth ones alone.
+// True if photons are stored at any rough surface after any scattering; otherwise only at those met after
+// perfectly smooth ones.
 layout(constant_id = 102) const bool PHOTONS_ARE_ALL = false;
 
 // Light that arrived at a surface after at least one scattering. Shared, 44 bytes.
@@ -26,10 +27,10 @@ struct Photon {
     vec3 flux;                // W
 };
 
-// The words of a photon in the map.
+// Number of words of a photon in the map.
 #define PHOTON_WORDS 11u
 
-// The head of the map of a sample. Shared, 12 bytes.
+// Header of the map of a sample. Shared, 12 bytes.
 struct PhotonHeader {
     float radius;             // metres around a surface within which photons count
     float cell;               // side of a cell, metres
@@ -49,20 +50,20 @@ layout(set = INTEGRATOR_SET, binding = 9, scalar) PHOTON_ACCESS buffer PhotonMap
     uint photon_words[];
 };
 
-// True if a surface scatters otherwise than in one direction: photons are stored there.
+// True if a surface scatters in more than one direction: photons are stored there.
 bool photon_is_stored_at(BsdfTerms terms) {
     float family, through;
     bsdf_cosine_probability(terms, family, through);
     return family > 0.0 || (SHADING_FACETS && !terms.mirror);
 }
 
-// The cell of a position. Its numbers are exact: there are no more than PHOTON_GRID_MOST.
+// Returns the cell of a position. Its numbers are exact: there are no more than PHOTON_GRID_MOST.
 ivec3 photon_cell(vec3 position) {
     vec3 place = floor(position / photon_header.cell);
     return ivec3(clamp(place, -PHOTON_GRID_MOST, PHOTON_GRID_MOST));
 }
 
-// The list of a cell, which other cells may have as well.
+// Returns the list of a cell, which other cells may share.
 uint photon_list(ivec3 cell) {
     uvec3 place = uvec3(cell);
     uint hash = (place.x * 73856093u) ^ (place.y * 19349663u) ^ (place.z * 83492791u);
@@ -87,8 +88,8 @@ void photon_store(uint entry, Photon photon) {
     photon_write(at + 8u, photon.flux);
 }
 #else
-// A sum of numbers from 0 to PHOTON_SUM_MOST in fixed point, in units of 2^-64: it is exact down to there, so that it does
-// not depend on the order of what is added.
+// Sum of numbers from 0 to PHOTON_SUM_MOST in fixed point, in units of 2^-64: it is exact down to these
+// units, so that it does not depend on the order of its terms.
 struct PhotonSum {
     uvec4 words;              // lowest first
 };
@@ -100,11 +101,11 @@ void photon_sum_word(inout uint word, uint added, inout uint carry) {
     carry = of_added + of_carry;
 }
 
-// No loops: drivers end those of an invocation after 65,535 iterations in all.
+// Adds a number, without loops: drivers end those of an invocation after 65,535 iterations in all.
 void photon_sum_add(inout PhotonSum sum, float number) {
     uint bits = floatBitsToUint(number);
     uint mantissa = (bits & 0x7FFFFFu) | 0x800000u;
-    // Place of the lowest bit of the mantissa, which is worth 2^(exponent - 150).
+    // The place is that of the lowest bit of the mantissa, which is worth 2^(exponent - 150).
     int place = int(bits >> 23) - 150 + 64;
     if (place < 0) {
         mantissa = place > -24 ? mantissa >> uint(-place) : 0u;
@@ -135,12 +136,12 @@ Photon photon_of(uint entry) {
     return Photon(photon_read(at), photon_words[at + 3u], photon_read(at + 4u), photon_words[at + 7u], photon_read(at + 8u));
 }
 
-// W/(sr m^2) that a surface sends along its `terms` of the photons around it that were scattered at most so often.
-// Its perfectly smooth lobes are left out.
+// Returns the radiance, W/(sr m^2), that a surface sends along its `terms` from the photons around it that
+// were scattered at most that many times. Its perfectly smooth lobes are left out.
 vec3 photon_gather(BsdfTerms terms, Surface s, uint scatterings) {
     if (scatterings == 0u || !photon_is_stored_at(terms)) return vec3(0.0);
     float radius = photon_header.radius;
-    // A little more, for what rounding moves over the border of a cell.
+    // The reach is a little greater for cells, because rounding may move a photon over the border of a cell.
     float reach = radius * 1.0001;
     ivec3 lower = photon_cell(s.position - reach);
     ivec3 upper = photon_cell(s.position + reach);
@@ -160,7 +161,7 @@ vec3 photon_gather(BsdfTerms terms, Surface s, uint scatterings) {
             float share = 1.0 - dot(apart, apart);
             float cosine = abs(dot(s.geometric_normal, photon.direction));
             if (!(share > 0.0) || !(cosine > 0.0) || photon.bounce > scatterings) continue;
-            // Photons of another cell with the same list are met there, or are too far away.
+            // Photons of another cell with the same list are met in that cell, or are too far away.
             if (photon_cell(photon.position) != cell) continue;
             vec3 light = bsdf_towards(terms, s, photon.direction).value * photon.flux * (scale * share / cosine);
             if (!(largest_component(light) < PHOTON_SUM_MOST)) fits = false;

@@ -5,7 +5,8 @@
 
 #include "contract/types.glsl"
 
-// Radiance of a surface that a ray hits along the unit `direction`, W/(sr m^2), with a light of 1 at the eye.
+// Returns the radiance of a surface that a ray hits along the unit `direction`, W/(sr m^2), with a light of 1
+// at the eye.
 vec3 raycast_radiance(Surface s, vec3 direction) {
     return s.emission + s.base_color * abs(dot(s.normal, direction));
 }

@@ -54,10 +54,11 @@ layout(set = INTEGRATOR_SET, binding = 5, scalar) buffer ShadowHeaderBuffer { Qu
 layout(set = INTEGRATOR_SET, binding = 6, scalar) buffer ShadowListBuffer { uint shadow_list[]; };
 layout(set = INTEGRATOR_SET, binding = 7, scalar) buffer AovBuffer { AovPixel aov_pixels[]; };
 layout(set = INTEGRATOR_SET, binding = 8, scalar) buffer PathWaitingBuffer { PathWaiting path_waiting[]; };
-// Bindings from 9 to 14 are those of one integrator alone.
+// List of the pixels of a sample that is not taken of all. Bindings from 9 to 14 belong to one integrator
+// alone.
 layout(set = INTEGRATOR_SET, binding = 15, scalar) readonly buffer WavePixelBuffer { uint wave_pixels[]; };
 
-// A sample is taken of the pixels that a list names, not of all.
+// True if a sample is taken of the pixels in a list, not of all.
 layout(constant_id = 107) const bool WAVE_IS_LISTED = false;
 
 // Slots that a kernel works on, and its parameters. 36 bytes.
@@ -75,7 +76,7 @@ layout(push_constant, scalar) uniform WaveConstants {
     uint band_first;      // first pixel of the band that the wave is in
 } wave;
 
-// The slot of this invocation; false where there is none.
+// Returns the slot of this invocation; false if there is none.
 bool wave_slot(out uint slot) {
     return queue_slot(wave.domain, gl_GlobalInvocationID.x, slot);
 }
@@ -86,7 +87,7 @@ uint wave_pixel(uint slot) {
     return wave_pixels[place - wave.band_first];
 }
 
-// Place of the record of a pixel of the wave in a buffer with one per pixel of the band.
+// Returns the place of the record of a pixel of the wave in a buffer with one per pixel of the band.
 uint band_place(uint pixel) {
     return pixel - wave.band_first;
 }

@@ -12,12 +12,12 @@ layout(location = 0) flat in vec4 pixel_bounds;
 layout(location = 1) flat in uint primitive;
 layout(location = 2) flat in uint covering;
 
-// The slot of this pixel; false where it is not of the wave.
+// Returns the slot of this pixel; false if it is not of the wave.
 bool fragment_slot(out uint slot) {
     uint width = scene_frame().width;
     uvec2 place = uvec2(gl_FragCoord.xy);
     uint pixel = (visibility.first_pixel / width + place.y) * width + place.x;
-    // Those before the first pixel wrap around.
+    // Pixels before the first one wrap around.
     slot = pixel - visibility.first_pixel;
     return slot < visibility.pixel_count;
 }

@@ -30,7 +30,7 @@ layout(push_constant, scalar) uniform VisibilityConstants {
     uint round;           // VISIBILITY_*
 } visibility;
 
-// Words of the hit of a slot.
+// These functions return the words of t and of the primitive in the hit of a slot.
 uint visibility_t_word(uint slot) {
     return 4u * slot;
 }

@@ -9,8 +9,8 @@
 #include "integrators/visibility.glsl"
 #include "scene/accessors.glsl"
 
-// Bounds rounding of the triangle test, of camera rays, and of what is computed here, relative to the largest length
-// that takes part: 64 u.
+// Bound of the rounding of the triangle test, of camera rays, and of the values computed here, relative to
+// the largest length involved: 64 u.
 const float ROUNDING = 3.9e-6;
 
 struct Area {
@@ -19,7 +19,7 @@ struct Area {
     float half_side;      // half of the longer side, pixels
 };
 
-// The area of the wave.
+// Returns the area of the wave.
 Area wave_area(Frame frame) {
     uint first = visibility.first_pixel / frame.width;
     uint last = (visibility.first_pixel + visibility.pixel_count - 1u) / frame.width;
@@ -27,12 +27,12 @@ Area wave_area(Frame frame) {
     return Area(size, float(first) + 0.5 * size.y, 0.5 * max(size.x, size.y));
 }
 
-// Pixels that a metre at depth 1 is wide and high; in a parallel projection at any depth.
+// Returns the width and height in pixels of a metre at depth 1; in a parallel projection at any depth.
 vec2 pixels_per_metre(Frame frame) {
     return vec2(0.5 * float(frame.width) / frame.half_width, 0.5 * float(frame.height) / frame.half_height);
 }
 
-// A point relative to the camera's position, so that (x/z, y/z) is its place in the area.
+// Transforms a point to the camera's position, so that (x/z, y/z) is its place in the area.
 vec3 area_from_camera(Frame frame, Area area, vec3 p) {
     vec2 pixels = vec2(dot(frame.camera_right, p), -dot(frame.camera_up, p)) * pixels_per_metre(frame);
     float z = frame.projection == PROJECTION_PERSPECTIVE ? dot(frame.camera_forward, p) : 1.0;
@@ -40,8 +40,9 @@ vec3 area_from_camera(Frame frame, Area area, vec3 p) {
     return vec3(pixels / area.half_side, z);
 }
 
-// True if all corners lie beyond a side of a rectangle of this half size around the centre, by more than `rounding`.
-// True of corners behind the eye, too: then no part of the triangle in front of it lies within.
+// True if all corners lie beyond a side of a rectangle of this half size around the centre, by more than
+// `rounding`. This also holds for corners behind the eye: no part of the triangle in front of the eye lies
+// within then.
 bool is_beyond(vec3 a, vec3 b, vec3 c, vec2 half_size, float rounding) {
     vec3 x = vec3(a.x, b.x, c.x);
     vec3 y = vec3(a.y, b.y, c.y);
@@ -51,9 +52,10 @@ bool is_beyond(vec3 a, vec3 b, vec3 c, vec2 half_size, float rounding) {
         || all(greaterThan(y - half_size.y * z, slack)) || all(greaterThan(-y - half_size.y * z, slack));
 }
 
-// Bounds (lower, upper) in the area of the centres of the pixels whose rays may hit the triangle, and how far such a
-// centre may be from the triangle: 0 where the triangle reaches behind the eye and the bounds are the whole area. False
-// where there are none. The corners are relative to the camera; `placed` are their places in the area.
+// Finds the bounds (lower, upper) in the area of the centres of the pixels whose rays may hit the triangle,
+// and the largest distance of such a centre from the triangle: 0 if the triangle reaches behind the eye and
+// the bounds are the whole area. False if there are no such pixels. The corners are relative to the camera;
+// `placed` are their places in the area.
 bool propose(Frame frame, Area area, vec3 corners[3], out vec3 placed[3], out vec4 bounds, out float margin) {
     float reach = max(length(corners[0]), max(length(corners[1]), length(corners[2])));
     bool perspective = frame.projection == PROJECTION_PERSPECTIVE;
@@ -79,7 +81,8 @@ bool propose(Frame frame, Area area, vec3 corners[3], out vec3 placed[3], out ve
     if (perspective && !(nearest > 1.0e-6 * reach)) {
         return true;
     }
-    // Half a pixel to the sides of a pixel, and 1/16 for the hardware's grid, which has 16 steps per pixel or more.
+    // The margin is half a pixel to the sides of a pixel, and 1/16 for the hardware's grid, which has 16
+    // steps per pixel or more.
     margin = (0.5 + 1.0 / 16.0) / area.half_side + rounding_placed / nearest;
     vec2 a = placed[0].xy / placed[0].z;
     vec2 b = placed[1].xy / placed[1].z;

@@ -14,7 +14,7 @@
 #include "integrators/whitted_storage.glsl"
 #include "scene/surface.glsl"
 
-// Anything sends more than one ray on.
+// True if any surface may send more than one ray on.
 #define WHITTED_BRANCHES (SHADING_TRANSMISSION || SHADING_PASSES)
 
 // Rays that one step asks to be traced. A ray with t_max < 0 is not to be traced.
@@ -30,7 +30,7 @@ bool whitted_has(uint mark) {
     return (wave.marks & mark) != 0u;
 }
 
-// Surface that the ray of a slot hit; a miss where it hit none.
+// Returns the surface that the ray of a slot hit; a miss if it hit none.
 Surface whitted_surface(uint slot, Ray ray) {
     if (queue_surfaces[slot].valid == 0u) return surface_miss(ray);
     Surface s = queue_surface(slot);
@@ -38,28 +38,29 @@ Surface whitted_surface(uint slot, Ray ray) {
     return s;
 }
 
-// First dimension of the light sample at what a ray hits: that of paths unless something was refracted or passed.
+// Returns the first dimension of the light sample at the hit of a ray: that of paths unless something was
+// refracted or passed.
 uint whitted_dimension(WhittedNode node) {
     return random_dimension(node.depth, RANDOM_LIGHT_KIND) + 256u * node.branch;
 }
 
-// The branch of a ray that was refracted, or else went straight on.
+// Returns the branch of a ray that was refracted, or else went straight on.
 uint whitted_branch(WhittedNode node, bool is_refracted) {
     return node.branch * 747796405u + 2891336453u + 2u * node.depth + (is_refracted ? 1u : 0u);
 }
 
-// Traces one more ray: next, and the one before it waits.
+// Adds one more ray to trace: it is next, and the one before it waits.
 void whitted_follow(uint slot, inout WhittedState state, inout WhittedStep asked, WhittedRay followed) {
     if (WHITTED_BRANCHES && asked.next.ray.t_max >= 0.0) whitted_push(slot, state, asked.next);
     asked.next = followed;
 }
 
-// True if a ray that carries this share of what it finds is worth being traced.
+// True if a ray that carries this share of the light it finds is worth tracing.
 bool whitted_is_worth(vec3 throughput) {
     return largest_component(throughput) > wave.number;
 }
 
-// A ray that leaves the surface by reflection or refraction.
+// Returns a ray that leaves the surface by reflection or refraction.
 WhittedRay whitted_leave(WhittedNode node, Surface s, Ray ray, vec3 direction, float footprint, vec3 throughput) {
     WhittedRay left = WhittedRay(spawn_ray(s, direction, PATH_INFINITY), node);
     left.ray.cone_width = footprint;
@@ -70,7 +71,7 @@ WhittedRay whitted_leave(WhittedNode node, Surface s, Ray ray, vec3 direction, f
     return left;
 }
 
-// The ray on through a surface that lets the share `straight` pass.
+// Sends the ray on through a surface that lets the share `straight` pass.
 void whitted_pass(uint slot, inout WhittedState state, Ray ray, Surface s, vec3 direction, float footprint,
                   vec3 straight, inout WhittedStep asked) {
     vec3 throughput = state.node.throughput * straight;
@@ -80,7 +81,7 @@ void whitted_pass(uint slot, inout WhittedState state, Ray ray, Surface s, vec3 
         return;
     }
     WhittedRay through = WhittedRay(spawn_ray(s, direction, PATH_INFINITY), state.node);
-    // The ray goes on as the one that it is: a camera ray passes the backs that camera rays pass.
+    // The ray keeps its kind: a camera ray passes the backs that camera rays pass.
     through.ray.flags = ray.flags;
     through.ray.cone_width = footprint;
     through.ray.cone_spread = ray.cone_spread;
@@ -90,8 +91,8 @@ void whitted_pass(uint slot, inout WhittedState state, Ray ray, Surface s, vec3 
     whitted_follow(slot, state, asked, through);
 }
 
-// One light sample of everything but the mirrored and the refracted ray; no other technique finds that light.
-// `throughput` is that of the surface.
+// Takes one light sample for everything but the mirrored and the refracted ray; no other technique finds that
+// light. `throughput` is that of the surface.
 void whitted_light(WhittedState state, uint pixel, Surface s, BsdfTerms terms, vec3 throughput,
                    inout WhittedStep asked) {
     LightSample light = light_sample(s, random_vec4(pixel, wave.sample_index, whitted_dimension(state.node)));
@@ -110,15 +111,16 @@ bool whitted_casts_shadows(WhittedNode node, bool is_specular) {
     return is_specular || !whitted_has(WHITTED_SHADOWS_SPECULAR);
 }
 
-// One step of a tree: `ray` was traced, `s` is the surface it hit (valid 0: none). Adds emission, and light that is not
-// tested, to the state; asks for a shadow ray and the next ray, and lets the others wait: of those of one surface the
-// mirrored ray is traced first, then the refracted one, then the one straight on.
+// Makes one step of a tree: `ray` was traced, `s` is the surface it hit (valid 0: none). Adds emission, and
+// light that is not tested, to the state; asks for a shadow ray and the next ray, and lets the others wait:
+// of the rays of one surface the mirrored ray is traced first, then the refracted one, then the one straight
+// on.
 WhittedStep whitted_step(uint slot, inout WhittedState state, Ray ray, Surface s) {
     Ray none = ray_inactive();
     WhittedStep asked = WhittedStep(WhittedRay(none, state.node), none, vec3(0.0), vec3(0.0), 0u);
     float speed = length(ray.direction);
     vec3 direction = ray.direction / speed;
-    // Rays of no weight are traced where all are asked for.
+    // Rays of no weight are traced as well if all rays are asked for.
     bool counts = largest_component(state.node.throughput) > 0.0;
     if (s.valid == 0u) {
         if (counts) state.radiance += state.node.throughput * environment_radiance(direction);

@@ -6,7 +6,7 @@
 
 #include "integrators/whitted.glsl"
 
-// The shadow ray of a surface that was shaded; inactive where it has none. All rays of the surface wait.
+// Returns the shadow ray of a surface that was shaded; inactive if it has none. All rays of the surface wait.
 Ray shade_ray(uint slot, inout WhittedState state, Ray ray, Surface surface, out uint cut) {
     WhittedStep asked = whitted_step(slot, state, ray, surface);
     cut = asked.cut;
@@ -19,7 +19,7 @@ Ray shade_ray(uint slot, inout WhittedState state, Ray ray, Surface surface, out
     return asked.shadow_ray;
 }
 
-// The shadow ray behind what it hit; inactive where it has ended.
+// Returns the shadow ray behind its hit; inactive if it has ended.
 Ray shade_shadow(inout WhittedState state, Ray ray, Surface surface, out uint cut) {
     PathState path = path_begin(0u, 0u);
     path.radiance = state.radiance;

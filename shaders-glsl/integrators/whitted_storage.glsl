@@ -7,7 +7,7 @@
 #include "integrators/constants.glsl"
 #include "integrators/storage.glsl"
 
-// A ray of a tree, apart from where it goes. Shared, 28 bytes.
+// Ray of a tree, without its origin and direction. Shared, 28 bytes.
 struct WhittedNode {
     vec3 throughput;          // share of the light hit next that reaches the camera
     uint medium;              // material whose inside the ray is in, or MATERIAL_NONE
@@ -16,13 +16,13 @@ struct WhittedNode {
     uint passed;              // surfaces that the ray, or its shadow ray, has passed in a straight line
 };
 
-// A ray that waits until those before it were traced. Shared, 76 bytes.
+// Ray that waits until those before it were traced. Shared, 76 bytes.
 struct WhittedRay {
     Ray ray;                  // where it goes
     WhittedNode node;         // what it is in its tree
 };
 
-// The tree of a sample. Shared, 68 bytes.
+// Tree of a sample. Shared, 68 bytes.
 struct WhittedState {
     vec3 radiance;            // gathered so far, W/(sr m^2)
     uint waiting;             // rays of the slot that wait, or WHITTED_ENDED
@@ -43,7 +43,7 @@ WhittedNode whitted_root() {
 #endif
 }
 
-// The tree of a slot; a new one in the first round.
+// Returns the tree of a slot; a new one in the first round.
 WhittedState whitted_of(uint slot) {
     if (wave.round == 0u) return WhittedState(vec3(0.0), 0u, vec3(0.0), vec3(0.0), whitted_root());
     return whitted_states[slot];
@@ -54,7 +54,7 @@ void whitted_push(uint slot, inout WhittedState state, WhittedRay pushed) {
     state.waiting += 1u;
 }
 
-// Takes the ray that waits last; none is where state.waiting is 0.
+// Takes the ray that waits last; there is none if state.waiting is 0.
 Ray whitted_pop(uint slot, inout WhittedState state) {
     state.waiting -= 1u;
     WhittedRay taken = whitted_rays[state.waiting * queue_header.capacity + slot];

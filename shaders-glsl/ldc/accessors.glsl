@@ -24,12 +24,13 @@ uint ldc_cell_count(LdcRef s) {
     return AXIS_VIEWS * LDC_HEADER(s).resolution * LDC_HEADER(s).resolution;
 }
 
-// Words of the scratch pool that the scan takes; long lists or the counts of layers follow.
+// Returns the number of words of the scratch pool that the scan takes; long lists or the counts of layers
+// follow.
 uint ldc_scan_words(LdcRef s) {
     return (ldc_cell_count(s) + SCAN_BLOCK - 1u) / SCAN_BLOCK;
 }
 
-// Running index of a cell over all views.
+// Returns the running index of a cell over all views.
 uint ldc_cell(LdcRef s, uint axis, ivec2 cell) {
     return axis_cell_index(axis, cell, LDC_HEADER(s).resolution);
 }
@@ -38,18 +39,19 @@ bool ldc_fragments_fit(LdcRef s) {
     return LDC_HEADER(s).demand <= LDC_HEADER(s).capacity;
 }
 
-// With 16 bits two depths share a word: lists begin at even places, so that no two lists share a word.
+// Returns an aligned place. With 16 bits two depths share a word: lists begin at even places, so that no two
+// lists share a word.
 uint ldc_aligned(uint place) {
     return LDC_DEPTH_BITS == 16u ? (place + 1u) & ~1u : place;
 }
 
-// Places that hold fragments.
+// Returns the number of places that hold fragments.
 uint ldc_places(LdcRef s) {
     return min(LDC_HEADER(s).capacity, LDC_HEADER(s).demand);
 }
 
-// Places of a cell's list: first, and one past the last. A list that leaves the `places` there are is counted
-// and empty.
+// Returns the places of a cell's list: first, and one past the last. A list that leaves the existing `places`
+// is counted and empty.
 uvec2 ldc_list(LdcRef s, uint cell, uint places) {
     uint begin = cell == 0u ? 0u : ldc_aligned(LDC_POOL(s, lists)[cell - 1u]);
     uint end = LDC_POOL(s, lists)[cell];
@@ -60,13 +62,13 @@ uvec2 ldc_list(LdcRef s, uint cell, uint places) {
     return uvec2(begin, end);
 }
 
-// Words of a fragment's payload, and of the triangle kept for diagnostics. With attributes its first word
-// holds the triangle until all passes that need triangles are done.
+// Returns the number of words of a fragment's payload, and of the triangle kept for diagnostics. With
+// attributes its first word holds the triangle until all passes that need triangles are done.
 uint ldc_payload_stride() {
     return (LDC_PAYLOAD == LDC_PAYLOAD_ATTRIBUTES ? 2u : 1u) + LDC_IDS;
 }
 
-// The triangle of a fragment; with attributes only during the build.
+// Returns the triangle of a fragment; with attributes only during the build.
 uint ldc_primitive(LdcRef s, uint place) {
     return LDC_POOL(s, payload)[ldc_payload_stride() * place];
 }
@@ -80,7 +82,7 @@ void ldc_lower_primitive(LdcRef s, uint place, uint primitive) {
     atomicMin(LDC_POOL(s, payload)[ldc_payload_stride() * place], primitive);
 }
 
-// Colour and normal of a fragment. An invalid place is counted.
+// Returns colour and normal of a fragment. An invalid place is counted.
 uvec2 ldc_attributes(LdcRef s, uint place) {
     if (place >= ldc_places(s)) {
         atomicAdd(LDC_HEADER(s).corrupted, 1u);
@@ -90,7 +92,7 @@ uvec2 ldc_attributes(LdcRef s, uint place) {
     return uvec2(LDC_POOL(s, payload)[first], LDC_POOL(s, payload)[first + 1u]);
 }
 
-// Puts colour and normal of a fragment in place of its triangle, which is stored behind them where it is kept.
+// Stores colour and normal of a fragment in place of its triangle, which is stored behind them if it is kept.
 void ldc_set_attributes(LdcRef s, uint place, uvec2 words) {
     uint first = ldc_payload_stride() * place;
     if (LDC_IDS != 0u) {
@@ -100,7 +102,7 @@ void ldc_set_attributes(LdcRef s, uint place, uvec2 words) {
     LDC_POOL(s, payload)[first + 1u] = words.y;
 }
 
-// The triangle of a fragment with attributes, where it is kept. An invalid place is counted.
+// Returns the triangle of a fragment with attributes, if it is kept. An invalid place is counted.
 uint ldc_kept_id(LdcRef s, uint place) {
     if (place >= ldc_places(s)) {
         atomicAdd(LDC_HEADER(s).corrupted, 1u);
@@ -109,13 +111,13 @@ uint ldc_kept_id(LdcRef s, uint place) {
     return LDC_POOL(s, payload)[ldc_payload_stride() * place + 2u];
 }
 
-// The bits a depth is stored as: with 16 bits a share of the cube's side.
+// Returns the bits as which a depth is stored: with 16 bits a share of the cube's side.
 uint ldc_depth_bits(LdcRef s, float z) {
     return LDC_DEPTH_BITS == 16u ? packHalf2x16(vec2(z / LDC_HEADER(s).size, 0.0)) & 0xFFFFu : floatBitsToUint(z);
 }
 
-// The value of a half that is not negative. By its bits: compilers replace unpackHalf2x16(packHalf2x16(x)) by x, and
-// the stored value differs from x.
+// Returns the value of a half that is not negative. It works on the bits, because compilers replace
+// unpackHalf2x16(packHalf2x16(x)) by x, and the stored value differs from x.
 float ldc_half(uint bits) {
     return bits < 0x400u ? float(bits) * (1.0 / 16777216.0) : uintBitsToFloat((bits << 13u) + 0x38000000u);
 }
@@ -124,12 +126,13 @@ float ldc_depth_of_bits(LdcRef s, uint bits) {
     return LDC_DEPTH_BITS == 16u ? ldc_half(bits) * LDC_HEADER(s).size : uintBitsToFloat(bits);
 }
 
-// Largest error of a stored depth, metres.
+// Returns the largest error of a stored depth, metres.
 float ldc_depth_rounding(LdcRef s) {
     return LDC_DEPTH_BITS == 16u ? 2.5e-4 * LDC_HEADER(s).size : 0.0;
 }
 
-// Largest distance of a surface's fragments from a point of it: over a cell it rises by no more than a cell.
+// Returns the largest distance of a surface's fragments from a point of the surface: over a cell it rises by
+// no more than a cell.
 float ldc_reach(LdcRef s) {
     return LDC_HEADER(s).cell + LDC_HEADER(s).tolerance + ldc_depth_rounding(s);
 }
@@ -160,7 +163,7 @@ void ldc_lower_depth(LdcRef s, uint place, uint bits) {
     atomicMin(LDC_POOL(s, depths)[LDC_DEPTH_BITS == 16u ? place >> 1u : place], word);
 }
 
-// Depth of a fragment as stored, metres.
+// Returns the depth of a fragment as stored, metres.
 float ldc_depth(LdcRef s, uint place) {
     return ldc_depth_of_bits(s, ldc_bits_at(s, place));
 }

@@ -12,7 +12,8 @@
 #include "ldc/visit_conservative.glsl"
 #endif
 
-// Behind the sums of the scan, where long lists are enqueued once all triangles have been visited.
+// Queue of large triangles, stored behind the sums of the scan; long lists use it after all triangles have
+// been visited.
 #define LargeRef LdcRef
 #define LARGE_WORD(s, place) LDC_POOL(s, scratch)[ldc_scan_words(s) + place]
 #define LARGE_HEADER(s) LDC_HEADER(s)
@@ -25,7 +26,7 @@ uint bin_view_count() {
     return 1u;
 }
 
-// A triangle in the view it faces most, and the first and last cell that may keep it, the same in every pass.
+// Triangle in the view it faces most, with the first and last cell that may keep it; equal in every pass.
 struct Bin {
     uint primitive;
     uint axis;

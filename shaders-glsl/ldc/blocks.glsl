@@ -8,17 +8,17 @@
 #include "ads/bucket.glsl"
 #include "ldc/accessors.glsl"
 
-// Columns and rows of cells of a block of a level.
+// Returns the columns and rows of cells of a block of a level.
 ivec2 ldc_block_cells(uint level) {
     return ivec2(LDC_BLOCK_COLUMNS, LDC_BLOCK_ROWS) * int(level == 0u ? 1u : LDC_LEVEL_BLOCKS);
 }
 
-// Columns and rows of blocks of a level in a view; the last ones may reach beyond its cells.
+// Returns the columns and rows of blocks of a level in a view; the last ones may reach beyond its cells.
 ivec2 ldc_view_blocks(uint resolution, uint level) {
     return (int(resolution) + ldc_block_cells(level) - 1) / ldc_block_cells(level);
 }
 
-// Running index of a block; those of the second level follow the others.
+// Returns the running index of a block; those of the second level follow the others.
 uint ldc_block(uint resolution, uint level, uint axis, ivec2 block) {
     ivec2 first = ldc_view_blocks(resolution, 0u);
     ivec2 blocks = ldc_view_blocks(resolution, level);
@@ -26,7 +26,7 @@ uint ldc_block(uint resolution, uint level, uint axis, ivec2 block) {
     return before + uint((int(axis) * blocks.y + block.y) * blocks.x + block.x);
 }
 
-// Words of a block.
+// Returns the number of words of a block.
 uint ldc_block_stride() {
     return LDC_OCCUPANCY == LDC_OCCUPANCY_SLICES ? 4u : 2u;
 }
