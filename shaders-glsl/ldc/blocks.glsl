@@ -31,8 +31,8 @@ uint ldc_block_stride() {
     return LDC_OCCUPANCY == LDC_OCCUPANCY_SLICES ? 4u : 2u;
 }
 
-// Bits of the slices from that of z_low to that of z_high. The slice of a depth is monotone, so that they hold all
-// depths between.
+// Returns the bits of the slices from that of z_low to that of z_high. The slice of a depth is monotone, so
+// that the bits cover all depths between.
 uvec2 ldc_slices(float slices_per_metre, float z_low, float z_high) {
     int first = int(bucket_of(z_low, 0.0, slices_per_metre, LDC_SLICES));
     int last = int(bucket_of(z_high, 0.0, slices_per_metre, LDC_SLICES));

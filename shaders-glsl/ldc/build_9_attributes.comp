@@ -19,7 +19,7 @@ uint list_end(uint list) {
 
 #include "ads/list_of_place.glsl"
 
-// Colour and normal of a triangle that was moved to a space of its own.
+// Returns colour and normal of a triangle that was moved to a space of its own.
 uvec2 rigid_attributes(uint primitive, vec2 barycentrics) {
     GeometryRigid map = rigid_map();
     vec3 a;
@@ -29,7 +29,7 @@ uvec2 rigid_attributes(uint primitive, vec2 barycentrics) {
     if (isinf(map.error)) {
         return stored_pack_triangle(stored_source_at(primitive, barycentrics, a, b, c));
     }
-    // The map at unit size, for determinants within range.
+    // The map is scaled to unit size, which keeps determinants within range.
     mat3 posed_from_built = inverse(mat3(map.x, map.y, map.z) / map.stretch);
     float grown = 1.0 / map.stretch;
     a = posed_from_built * (grown * (a - map.offset)) + map.centre;

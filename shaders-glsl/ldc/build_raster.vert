@@ -26,7 +26,7 @@ void main() {
     }
     ldc_view_vertices(view, primitive, a, b, c);
 #ifdef CONSERVATIVE
-    // Half a cell to its sides, and 1/32 for the hardware's grid.
+    // The margin is half a cell to its sides, and 1/32 for the hardware's grid.
     gl_Position = axis_proposal(view, a, b, c, corner, 0.5 + 1.0 / 32.0 + LDC_REACH_MORE);
 #else
     if (LDC_COVERAGE == LDC_COVERAGE_HARDWARE) {

@@ -6,7 +6,8 @@
 
 #include "ldc/accessors.glsl"
 
-// The first link of a cell's conservative list. Where rays meet triangles the other list holds all that reach into the cell.
+// Returns the first link of a cell's conservative list. If rays are tested against triangles, the other list
+// holds all triangles that reach into the cell.
 uint ldc_conservative_head(LdcRef s, uint cell) {
     bool kept = LDC_COVERAGE == LDC_COVERAGE_CONSERVATIVE && LDC_ACCEPT != LDC_ACCEPT_TRIANGLE;
     return kept ? LDC_POOL(s, heads)[cell] : 0u;

@@ -17,7 +17,7 @@ AxisView ldc_built_view(uint axis) {
         LDC_HEADER(build.structure).resolution, axis);
 }
 
-// The corners of a triangle in the frame of a view.
+// Returns the corners of a triangle in the frame of a view.
 void ldc_view_vertices(AxisView view, uint primitive, out vec3 a, out vec3 b, out vec3 c) {
     geometry_vertices(primitive, a, b, c);
     a = axis_from_world(view, a);
@@ -25,13 +25,14 @@ void ldc_view_vertices(AxisView view, uint primitive, out vec3 a, out vec3 b, ou
     c = axis_from_world(view, c);
 }
 
-// The cell of a fragment invocation: the viewport has a border of one.
+// Returns the cell of a fragment invocation: the viewport has a border of one.
 ivec2 ldc_cell_at(vec4 frag_coord) {
     return ivec2(frag_coord.xy) - 1;
 }
 
-// Depth and barycentrics of a triangle at a cell's centre; false where it gets no fragment there. Where rays meet
-// triangles every cell that it reaches into gets one, with the word of its depths in the cell (ads/reached.glsl).
+// Finds depth and barycentrics of a triangle at a cell's centre; false if it gets no fragment there. If rays
+// are tested against triangles, every cell that a triangle reaches into gets a fragment, with the word of the
+// triangle's depths in the cell (ads/reached.glsl).
 bool ldc_fragment(AxisView view, uint primitive, ivec2 cell, out float z, out vec2 barycentrics) {
     if (!axis_has_cell(view.resolution, cell)) {
         return false;
@@ -62,7 +63,8 @@ bool ldc_fragment(AxisView view, uint primitive, ivec2 cell, out float z, out ve
     return covers;
 }
 
-// True if a cell keeps a fragment there: where rays meet triangles, masks are evaluated at the hit.
+// True if a cell keeps a fragment at its centre: if rays are tested against triangles, masks are evaluated at
+// the hit.
 bool ldc_keeps(uint primitive, vec2 barycentrics) {
     return LDC_ACCEPT == LDC_ACCEPT_TRIANGLE || alpha_accepts(primitive, barycentrics);
 }

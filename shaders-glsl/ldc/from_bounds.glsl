@@ -8,9 +8,9 @@
 #include "ldc/header.glsl"
 
 void ldc_from_bounds(LdcRef s, vec3 lower, vec3 upper) {
-    // A margin for the rounding of what is subtracted from corner and ray.
+    // The margin covers the rounding of differences to corner and ray.
     precise float rounding = LDC_ROUNDING * box_reach(lower, upper);
-    // Where all geometry is one point its cells have a size all the same.
+    // If all geometry is one point its cells still have a size.
     precise float size = max(largest_axis(upper - lower) + 4.0 * rounding, PLACEMENT_SMALLEST);
     precise float cell = size / float(LDC_HEADER(s).resolution);
     LDC_HEADER(s).size = size;

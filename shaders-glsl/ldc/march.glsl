@@ -7,14 +7,14 @@
 #define LDC_MARCH_GLSL
 
 #ifdef RIGID
-// Largest shift of the ray by rounding, in cells: squares that it passes as close by are crossed, too.
+// Largest shift of the ray by rounding, in cells: squares within this distance of the ray are crossed, too.
 float ldc_spread = 0.0;
 #define LDC_SPREAD(wide) + (wide)
 #else
 #define LDC_SPREAD(wide)
 #endif
 
-// A ray over a view, in cells.
+// Ray over a view, in units of cells.
 struct LdcFlatRay {
     bool turned;          // columns are along the second side
     vec2 origin;          // along columns, along rows
@@ -23,14 +23,14 @@ struct LdcFlatRay {
     ivec2 step;
 };
 
-// The squares of a traversal, along columns and along rows.
+// Area of a traversal: its squares along columns and along rows.
 struct LdcArea {
     vec2 width;           // of a square, cells
     ivec2 first;
     ivec2 last;
 };
 
-// A traversal. A column may have no row within the area: then `rows` is not positive.
+// Traversal of an area. If a column has no row within the area, `rows` is not positive.
 struct LdcMarch {
     LdcArea area;
     vec2 t;               // the part of the ray that is traversed
@@ -52,18 +52,20 @@ LdcFlatRay ldc_flat_ray(vec2 origin, vec2 direction) {
     return ray;
 }
 
-// The area from one square to another one.
+// Returns the area from one square to another.
 LdcArea ldc_area(LdcFlatRay ray, vec2 width, ivec2 first, ivec2 last) {
     return LdcArea(ray.turned ? width.yx : width, ray.turned ? first.yx : first, ray.turned ? last.yx : last);
 }
 
-// The first and last square along a side (0: columns, 1: rows) that the ray touches between two t, within rounding.
+// Returns the first and last square along a side (0: columns, 1: rows) that the ray touches between two t,
+// within rounding.
 ivec2 ldc_touched(LdcFlatRay ray, LdcArea area, int side, vec2 t) {
     float origin = ray.origin[side];
     vec2 moved = ray.direction[side] == 0.0 ? vec2(0.0) : t * ray.direction[side];
     float guard = 9.6e-7 * (abs(origin) + max(abs(moved.x), abs(moved.y))) LDC_SPREAD(ldc_spread);
     vec2 ends = vec2(origin + min(moved.x, moved.y) - guard, origin + max(moved.x, moved.y) + guard) / area.width[side];
-    // Clamped as floats: what does not fit into an integer cannot be converted.
+    // The values are clamped as floats, because a value that does not fit into an integer cannot be
+    // converted.
     ivec2 squares = ivec2(floor(clamp(ends, vec2(-1.0), vec2(float(area.last[side] + 1)))));
     return ivec2(max(squares.x, area.first[side]), min(squares.y, area.last[side]));
 }
@@ -83,7 +85,7 @@ void ldc_enter_column(LdcFlatRay ray, inout LdcMarch march) {
     march.rows = rows.y - rows.x + 1;
 }
 
-// Starts a traversal over [t.x, t.y]; false where the ray does not cross the area.
+// Starts a traversal over [t.x, t.y]; false if the ray does not cross the area.
 bool ldc_march_begin(LdcFlatRay ray, LdcArea area, vec2 t, out LdcMarch march) {
     march.area = area;
     march.t = t;
@@ -114,7 +116,7 @@ bool ldc_march_next(LdcFlatRay ray, inout LdcMarch march) {
     return true;
 }
 
-// The square that a traversal is at. A column without rows may be at row -1, or one past the last.
+// Returns the square that a traversal is at. A column without rows may be at row -1, or one past the last.
 ivec2 ldc_march_square(LdcFlatRay ray, LdcMarch march) {
     return ray.turned ? ivec2(march.row, march.column) : ivec2(march.column, march.row);
 }

@@ -15,7 +15,7 @@
 #define LDC_CURSOR_TURN 4, 2
 #define LDC_CURSOR_IN_UPPER 6, 1
 
-// `turn` is that of the view.
+// Saves the state of a ray; `turn` is the number of the view in the order of the ray.
 void ldc_save(LdcTraversal traversal, uint turn, LdcSearch search, inout TraceState state) {
     state.cursor[0] = bits_put(true, LDC_CURSOR_STARTED) | bits_put(traversal.in_upper, LDC_CURSOR_IN_UPPER)
         | bits_put(traversal.in_block, LDC_CURSOR_IN_BLOCK) | bits_put(search.begun, LDC_CURSOR_BEGUN)

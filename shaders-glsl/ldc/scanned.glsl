@@ -9,7 +9,7 @@ uint scan_count(LdcRef s, uint step) {
     return ldc_cell_count(s);
 }
 
-// Places are aligned already, so that aligning them again changes nothing.
+// Returns an aligned length. Places are aligned already, so that aligning them again changes nothing.
 uint scan_number(LdcRef s, uint step, uint i) {
     return ldc_aligned(LDC_POOL(s, lists)[i]);
 }

@@ -14,7 +14,7 @@
 #include "ads/rigid.glsl"
 #endif
 
-// Lists at least this long are entered by bisection.
+// Least length of a list that is entered by bisection.
 #define LDC_BISECTION_LENGTH 8u
 
 // Sizes of the header that every step needs, read once.
@@ -27,7 +27,7 @@ struct LdcSizes {
     float slack;          // t by which a fragment can be hit before or behind its segment
 };
 
-// One search, able to stop between two entries.
+// Search of a cell, which can stop between two entries.
 struct LdcSearch {
     LdcSizes sizes;
     uint axis;
@@ -42,7 +42,7 @@ struct LdcSearch {
     uint place;           // of the next fragment, or link of the next node of the conservative list
 };
 
-// Maximum distance from the ray's depths in a cell to those of a fragment that it hits there.
+// Returns the maximum distance from the ray's depths in a cell to those of a fragment that it hits there.
 float ldc_margin(LdcRef s) {
     if (LDC_ACCEPT == LDC_ACCEPT_TOLERANCE) {
         return LDC_HEADER(s).tolerance;
@@ -53,7 +53,7 @@ float ldc_margin(LdcRef s) {
     return (1.001 + slack) * LDC_HEADER(s).cell + 2.0 * ldc_depth_rounding(s);
 }
 
-// Range of t before and behind its segment in which a fragment can be hit.
+// Returns the range of t before and behind its segment in which a fragment can be hit.
 float ldc_slack(LdcRef s, Ray ray) {
     return LDC_ACCEPT == LDC_ACCEPT_PLANE ? LDC_PLANE_SLACK * LDC_HEADER(s).cell / length(ray.direction) : 0.0;
 }
@@ -63,7 +63,7 @@ LdcSizes ldc_sizes(LdcRef s, Ray ray) {
         ldc_margin(s), ldc_slack(s, ray));
 }
 
-// Depths that the ray has between two t, widened by their rounding.
+// Returns the depths that the ray has between two t, widened by their rounding.
 vec2 ldc_depths_between(float z_origin, float z_direction, float t_low, float t_high) {
     float z_in = z_origin + t_low * z_direction;
     float z_out = z_origin + t_high * z_direction;
@@ -71,7 +71,8 @@ vec2 ldc_depths_between(float z_origin, float z_direction, float t_low, float t_
     return vec2(min(z_in, z_out) - rounding, max(z_in, z_out) + rounding);
 }
 
-// Tests the plane of a fragment's triangle, logs it, and lets it replace the best hit if it may.
+// Tests the plane of a fragment's triangle, logs the test, and replaces the best hit if the plane is
+// accepted.
 void ldc_test_plane(LdcRef s, Ray ray, LdcSearch search, uint primitive, inout TraceState state) {
     float t;
     vec2 barycentrics;
@@ -96,7 +97,7 @@ void ldc_test_plane(LdcRef s, Ray ray, LdcSearch search, uint primitive, inout T
     }
 }
 
-// The corners of a triangle where the cube was built.
+// Returns the corners of a triangle where the cube was built.
 void ldc_built_corners(uint primitive, out vec3 a, out vec3 b, out vec3 c) {
     geometry_vertices(primitive, a, b, c);
 #ifdef RIGID
@@ -107,8 +108,8 @@ void ldc_built_corners(uint primitive, out vec3 a, out vec3 b, out vec3 c) {
 #endif
 }
 
-// Largest distance of a fragment from the ray, by its triangle's own slope: its rise over half a cell, but no less than
-// two units in the last place of its depth.
+// Returns the largest distance of a fragment from the ray, by its triangle's own slope: its rise over half a
+// cell, but no less than two units in the last place of its depth.
 float ldc_slope_tolerance(LdcRef s, LdcSearch search, uint primitive, float z) {
     vec3 a;
     vec3 b;
@@ -120,8 +121,8 @@ float ldc_slope_tolerance(LdcRef s, LdcSearch search, uint primitive, float z) {
     return max(min(rise, 1.0) * search.sizes.cell, 2.0 * last_place);
 }
 
-// True if a fragment without an id replaces a best hit at the same distance: never one on a triangle, and of two
-// fragments the one with the lower words, so that the answer does not depend on where they are stored.
+// True if a fragment without an id replaces a best hit at the same distance: never a hit on a triangle, and
+// of two fragments the one with the lower words wins, so that the answer does not depend on their places.
 bool ldc_replaces_as_near(LdcRef s, Hit best, uint place) {
     if (best.primitive != PRIMITIVE_UNKNOWN) {
         return false;
@@ -131,8 +132,8 @@ bool ldc_replaces_as_near(LdcRef s, Hit best, uint place) {
     return words.x < held.x || (words.x == held.x && words.y < held.y);
 }
 
-// True if a fragment at this depth that the ray passes at t is next to where the ray ends, as close as fragments of the
-// surface there may be.
+// True if a fragment at this depth that the ray passes at t is next to the end of the ray, as close as
+// fragments of the surface there may be.
 bool ldc_is_at_end(LdcRef s, Ray ray, LdcSearch search, float z, float t) {
     if (LDC_ENDS == ENDS_TOUCHING || !(ray.t_max < 3.0e38)) {
         return false;
@@ -142,15 +143,15 @@ bool ldc_is_at_end(LdcRef s, Ray ray, LdcSearch search, float z, float t) {
     return abs(z - z_end) <= reach && (ray.t_max - t) * length(search.direction) <= LDC_ENDING * reach;
 }
 
-// True if the ray passes a fragment that keeps its normal, because it meets the back. The normal is that where the cube
-// was built.
+// True if the ray passes a fragment that keeps its normal, because it meets the back. The normal is that of
+// the space in which the cube was built.
 bool ldc_is_passed(LdcRef s, Ray ray, LdcSearch search, uint place) {
     uvec2 words = ldc_attributes(s, place);
     ray.direction = stored_emits(words) ? ray.direction : search.direction;
     return stored_is_passed(ray, words);
 }
 
-// Tests a fragment by its depth: the hit is where the ray passes it, within the cell.
+// Tests a fragment by its depth: the hit is where the ray has that depth, within the cell.
 void ldc_evaluate_depth(LdcRef s, Ray ray, LdcSearch search, vec2 depths, uint place, float z, inout TraceState state) {
     bool known = LDC_PAYLOAD == LDC_PAYLOAD_INDEX;
     uint primitive = known ? ldc_primitive(s, place) : PRIMITIVE_UNKNOWN;
@@ -196,7 +197,7 @@ bool ldc_is_anywhere(float z) {
     return LDC_ACCEPT == LDC_ACCEPT_TRIANGLE && z == REACHED_ANY_DEPTH;
 }
 
-// The first place of a sorted list whose depth is not below z.
+// Returns the first place of a sorted list whose depth is not less than z.
 uint ldc_first_from(LdcRef s, uvec2 list, float z, inout TraceState state, inout uint work) {
     uint begin = list.x;
     uint end = list.y;
@@ -237,7 +238,8 @@ bool ldc_search_conservative(LdcRef s, Ray ray, inout LdcSearch search, inout Tr
     return false;
 }
 
-// By how much less than the margin a fragment may be from the ray's depths: words of 32 bits say how far a triangle's reach.
+// Returns how much nearer than the margin a fragment must be to the ray's depths: words of 32 bits hold the
+// reach of a triangle.
 float ldc_margin_less(LdcSearch search, float z) {
     return LDC_ACCEPT == LDC_ACCEPT_TRIANGLE && LDC_DEPTH_BITS == 32u ? search.sizes.cell * reached_less(z) : 0.0;
 }

@@ -10,16 +10,16 @@
 #include "ads/build_constants.glsl"
 
 #define SORT_HEADER(s) LDC_HEADER(s)
-// Behind the sums of the scan.
+// Table of long lists, behind the sums of the scan.
 #define SORT_WORD(s, place) LDC_POOL(s, scratch)[ldc_scan_words(s) + (place)]
 #define SORT_LIMIT SHORT_LIST_LIMIT
 #define SORT_LONG_LIMIT LONG_LIST_LIMIT
 
-// The list that is sorted: the functions of the shared sort know elements by their number.
+// Structure of the list that is sorted, since the functions of the shared sort know elements by their number.
 LdcRef sorted_structure;
 uint sorted_from;
 
-// Depths are not negative, so that they order like their bits.
+// True if element i comes first. Depths are not negative, so that they order like their bits.
 bool sort_before(uint i, uint j) {
     uint left = ldc_bits_at(sorted_structure, sorted_from + i);
     uint right = ldc_bits_at(sorted_structure, sorted_from + j);

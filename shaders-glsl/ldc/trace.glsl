@@ -10,7 +10,7 @@
 #include "contract/trace_functions.glsl"
 #include "ldc/pause.glsl"
 
-// The part of [t_min, t_max] in which the ray is inside the bounds of the geometry.
+// Returns the part of [t_min, t_max] in which the ray is inside the bounds of the geometry.
 vec2 ldc_clip(LdcRef s, Ray ray) {
     vec2 interval = vec2(ray.t_min, ray.t_max);
     for (int axis = 0; axis < 3; axis++) {
@@ -31,7 +31,7 @@ vec2 ldc_clip(LdcRef s, Ray ray) {
     return interval;
 }
 
-// Begins the traversal through a view; false where the ray does not cross it.
+// Begins the traversal through a view; false if the ray does not cross it.
 bool ldc_begin_view(vec2 clip, inout LdcTraversal traversal) {
     if (LDC_SKIP == 0u) {
         traversal.in_upper = true;
@@ -45,7 +45,7 @@ bool ldc_begin_view(vec2 clip, inout LdcTraversal traversal) {
     return traversal.in_upper;
 }
 
-// Goes to the next block of the view; false where there is none.
+// Goes to the next block of the view; false if there is none.
 bool ldc_next_block(inout LdcTraversal traversal) {
     traversal.in_block = false;
     if (LDC_SKIP == 0u) {
@@ -58,13 +58,13 @@ bool ldc_next_block(inout LdcTraversal traversal) {
     return LDC_LEVELS == 2u && ldc_march_next(traversal.flat_ray, traversal.upper);
 }
 
-// Results of a traversal's look at a square of blocks.
+// Results of ldc_look for a square of blocks.
 #define LDC_SKIPPED 0u
 #define LDC_ENTERED 1u
 #define LDC_BEHIND 2u
 
-// Tests the block that the traversal of a level is at, and begins that of the level within it where its depths overlap
-// the ray's.
+// Tests the block that the traversal of a level is at, and begins the traversal of the level within it if the
+// block's depths overlap the ray's.
 uint ldc_look(LdcRef s, LdcTraversal traversal, uint level, uint inner, LdcMarch march, inout LdcMarch within,
     inout TraceState state,
     inout uint work) {
@@ -84,8 +84,9 @@ uint ldc_look(LdcRef s, LdcTraversal traversal, uint level, uint inner, LdcMarch
     return entered ? LDC_ENTERED : LDC_SKIPPED;
 }
 
-// Traverses one view, from its beginning or from where it stopped; true if the work budget ended first. Every
-// level has a loop of its own: invocations that run in lockstep pay for all that one of them does in an iteration.
+// Traverses one view, from its beginning or from the place where it stopped; true if the work budget ended
+// first. Every level has a loop of its own: invocations that run in lockstep pay for everything that one of
+// them does in an iteration.
 bool ldc_trace_view(LdcRef s, Ray ray, bool any_hit, bool ordered, bool more, inout LdcTraversal traversal,
     inout LdcSearch search,
     inout TraceState state, inout uint work) {
@@ -140,8 +141,8 @@ bool ldc_trace_view(LdcRef s, Ray ray, bool any_hit, bool ordered, bool more, in
 }
 
 #ifdef RIGID
-// Tests all triangles, where rounding may move them farther than cells take them in. No cell is remembered: the cursor has
-// the next triangle.
+// Tests all triangles, if rounding may move them farther than the margins of cells. No cell is remembered:
+// the cursor has the next triangle.
 uint ldc_trace_all(Ray ray, inout TraceState state, bool any_hit) {
     uint end = geometry_triangle_count();
     uint primitive = state.cursor[0];
@@ -160,7 +161,7 @@ uint ldc_trace_all(Ray ray, inout TraceState state, bool any_hit) {
 }
 #endif
 
-// A ray, as where the cube was built, from beyond the fragments of the triangle that it leaves.
+// Returns a ray in the space of the build, moved beyond the fragments of the triangle that it leaves.
 Ray ldc_leave(LdcRef s, Ray ray) {
     if (LDC_ENDS != ENDS_CLEAR || ray.exclude_primitive >= geometry_triangle_count()) {
         return ray;
@@ -172,8 +173,8 @@ Ray ldc_leave(LdcRef s, Ray ray) {
     return leaving_triangle(ray, ldc_reach(s), a, b, c);
 }
 
-// Views, blocks and cells are crossed, and depths of fragments met, by the ray where the cube was built; triangles are tested
-// by the ray itself.
+// Traces a ray. The ray in the space of the build crosses views, blocks and cells, and meets the depths of
+// fragments; triangles are tested by the ray itself.
 uint ldc_trace(LdcRef s, Ray ray, inout TraceState state, bool any_hit) {
     bool ordered = LDC_HEADER(s).unsorted == 0u;
     LdcSizes sizes = ldc_sizes(s, ray);
@@ -200,7 +201,8 @@ uint ldc_trace(LdcRef s, Ray ray, inout TraceState state, bool any_hit) {
     }
     bool restored = bits_are_set(state.cursor[0], LDC_CURSOR_STARTED);
     uint work = 0u;
-    // First the view in which the ray crosses the fewest cells: a hit there ends it early in the others.
+    // The view in which the ray crosses the fewest cells comes first: a hit there ends the traversals of the
+    // others early.
     uint first_axis = triangle_major_axis(marched.direction);
     for (uint turn = restored ? bits_get(state.cursor[0], LDC_CURSOR_TURN) : 0u; turn < AXIS_VIEWS; turn++) {
         uint axis = (first_axis + turn) % AXIS_VIEWS;

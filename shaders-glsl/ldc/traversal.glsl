@@ -61,8 +61,8 @@ LdcTraversal ldc_begin_traversal(LdcRef s, Ray ray, LdcSizes sizes, uint axis, f
     return traversal;
 }
 
-// The ray's segment within cells [lower, upper) of the view, widened by its rounding; empty (x > y) where it passes
-// outside of them.
+// Returns the ray's segment within cells [lower, upper) of the view, widened by its rounding; empty (x > y)
+// if it passes outside them.
 vec2 ldc_square_interval(LdcTraversal traversal, ivec2 lower, ivec2 upper) {
     vec2 t = vec2(traversal.t_begin, traversal.t_end);
     for (int side = 0; side < 2; side++) {
@@ -86,8 +86,8 @@ vec2 ldc_block_interval(LdcTraversal traversal, uint level, ivec2 block) {
     return ldc_square_interval(traversal, block * cells, (block + 1) * cells);
 }
 
-// True if nothing in a segment that begins at t_low, or later on the way, can be nearer than the best hit. What comes
-// later may begin earlier by as much as a segment is widened for its rounding.
+// True if nothing in a segment that begins at t_low, or in a later one, can be nearer than the best hit. A
+// later segment may begin earlier by as much as a segment is widened for its rounding.
 bool ldc_is_behind(LdcTraversal traversal, float t_low, float best_t) {
     return t_low - traversal.sizes.slack - 6.0e-8 * (8.0 * abs(t_low) + 2.0 * traversal.shift)
         LDC_SPREAD(-2.0 * ldc_spread * max(abs(traversal.inverse.x), abs(traversal.inverse.y))) > best_t;

@@ -8,7 +8,8 @@
 #include "ldc/blocks.glsl"
 #include "ldc/covered.glsl"
 
-// Lengthens the cell's list; in the second draw with peeling advances its word from its first place to its end.
+// Lengthens the cell's list; in the second draw with peeling it advances the list's word from its first place
+// to its end.
 void ldc_visit_count(uint primitive, uint axis, ivec2 cell) {
     float z;
     vec2 barycentrics;
@@ -20,8 +21,8 @@ void ldc_visit_count(uint primitive, uint axis, ivec2 cell) {
     }
 }
 
-// Widens the depths of a cell's blocks by a depth stored for a triangle, by all of the triangle's where rays may hit it at
-// any.
+// Widens the depths of a cell's blocks by a depth stored for a triangle, or by all depths of the triangle if
+// rays may hit it at any.
 void ldc_widen_by(uint primitive, uint axis, ivec2 cell, uint bits) {
     float z = ldc_depth_of_bits(build.structure, bits);
     vec2 depths = vec2(z);

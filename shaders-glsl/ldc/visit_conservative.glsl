@@ -10,9 +10,9 @@
 #include "ldc/covered.glsl"
 #include "ldc/conservative.glsl"
 
-// True if a fragment of the cell represents a triangle there: one of the same draw, whose plane passes within `close`
-// metres of this point of the triangle, in the view. Another draw may be of another material: a lamp let into a ceiling
-// is not the ceiling.
+// True if a fragment of the cell represents a triangle there: a fragment of the same draw, whose plane passes
+// within `close` metres of this point of the triangle, in the view. Another draw may be of another material:
+// a lamp let into a ceiling is not the ceiling.
 bool ldc_is_stood_for(
     AxisView view, uint cell, uint primitive, vec2 point, float z_point, float z_center, float close) {
     uvec2 list = ldc_list(build.structure, cell, ldc_places(build.structure));
@@ -40,7 +40,7 @@ bool ldc_is_stood_for(
 
 void ldc_visit_conservative(uint primitive, uint axis, ivec2 place) {
     if (!ldc_fragments_fit(build.structure)) {
-        // The fragments that represent a triangle are not known until all fragments fit.
+        // The fragments that represent a triangle are unknown until all fragments fit.
         return;
     }
     AxisView view = ldc_built_view(axis);
@@ -70,7 +70,7 @@ void ldc_visit_conservative(uint primitive, uint axis, ivec2 place) {
         return;
     }
     float extent = axis_extent(view, a, b, c);
-    // The part of the triangle within the cell.
+    // These depths are those of the part of the triangle within the cell.
     vec2 depths = max(clamp(z_center + vec2(-extent, extent), z_nearest, z_farthest), vec2(0.0));
     ldc_widen_blocks(build.structure, view.axis, place, depths.x, depths.y);
     conservative_add(build.structure, cell, primitive, depths);

@@ -22,7 +22,7 @@ uint primitive_list_count(PrimitiveRef s) {
     return primitive_cell_count(s) * PRIMITIVE_BUCKETS;
 }
 
-// Running index of the list of a cell's bucket.
+// Returns the running index of the list of a cell's bucket.
 uint primitive_list(uint cell, uint bucket) {
     return cell * PRIMITIVE_BUCKETS + bucket;
 }
@@ -58,7 +58,7 @@ PrimitiveBounds primitive_bounds(PrimitiveRef s, uint cell) {
     return bounds;
 }
 
-// Stores the scale of a cell's buckets next to its bounds; only where there are several buckets.
+// Stores the scale of a cell's buckets next to its bounds, only if there are several buckets.
 void primitive_store_scale(PrimitiveRef s, uint cell) {
     PrimitiveBounds bounds = primitive_bounds(s, cell);
     float scale = bounds.empty ? 0.0 : bucket_scale(bounds.z_min, bounds.z_max, PRIMITIVE_BUCKETS);

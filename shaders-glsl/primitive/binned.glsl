@@ -20,7 +20,8 @@ POOL_WORDS(primitive, large, 6)
 #include "ads/bin_large.glsl"
 
 #define bin_built build.structure
-// The bounds of cells are always needed, so the large-triangle queue needs no pass of its own.
+// The queue of large triangles is filled by the pass for bounds, which always runs, so that it needs no pass
+// of its own.
 #define BIN_ENQUEUES BIN_VISIT_BOUNDS
 #define BIN_TELLS_BLOCKS
 
@@ -28,7 +29,7 @@ uint bin_view_count() {
     return primitive_view_count();
 }
 
-// A triangle in a face, and the first and last column and row that may hold any of it.
+// Triangle in a face, with the first and last column and row that may hold any part of it.
 struct Bin {
     uint primitive;
     uint face;
@@ -51,7 +52,7 @@ bool bin_load(uint primitive, out BinTriangle triangle) {
     return listed;
 }
 
-// False where the triangle reaches into no column of the face.
+// Begins a triangle in a face; false if it reaches into no column of the face.
 bool bin_begin(BinTriangle triangle, uint face, out Bin bin) {
     bin.primitive = triangle.primitive;
     bin.face = face;
@@ -69,7 +70,8 @@ bool bin_begin(BinTriangle triangle, uint face, out Bin bin) {
     return true;
 }
 
-// The depths of the triangle within a square of `side` columns; false where it does not reach into it.
+// Finds the depths of the triangle within a square of `side` columns; false if it does not reach into the
+// square.
 bool primitive_bin_depths(Bin bin, ivec2 column, int side, out vec2 depths) {
     float tiles = float(bin.grid.tiles);
     precise float half_side = float(side) / tiles + bin.margin;

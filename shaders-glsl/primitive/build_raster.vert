@@ -23,7 +23,8 @@ void main() {
     if (!primitive_is_listed(primitive)) {
         gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
     } else if (PRIMITIVE_COVERAGE == PRIMITIVE_COVERAGE_CONSERVATIVE) {
-        // The centre of every cell that the triangle reaches into, with 1/32 of a cell for the hardware's grid.
+        // The margin covers the centre of every cell that the triangle reaches into, with 1/32 of a cell for
+        // the hardware's grid.
         float margin = 1.0 / float(tiles) + primitive_margin(grid, a, b, c) + 1.0 / (16.0 * float(tiles));
         gl_Position = coverage_proposal_within(a, b, c, corner, tiles, margin);
     } else {

@@ -12,8 +12,8 @@
 // Square of the smallest cosine between a corner's ray and the normal.
 const float CORNER_STEEPNESS = 1.0e-6;
 
-// Smallest and largest depth; those of the whole view where no corner's ray intersects the plane within it. Every
-// step is precise: passes that count and passes that store must decide alike.
+// Returns smallest and largest depth; those of the whole view if no corner's ray intersects the plane within
+// it. Every step is precise, since passes that count and passes that store must decide alike.
 vec2 primitive_corner_depths(PrimitiveGrid grid, vec3 a, vec3 b, vec3 c, ivec2 cell) {
     precise vec3 ab = b - a;
     precise vec3 ac = c - a;
@@ -36,7 +36,7 @@ vec2 primitive_corner_depths(PrimitiveGrid grid, vec3 a, vec3 b, vec3 c, ivec2 c
     return depths.x <= depths.y ? depths : vec2(view_near, grid.reach);
 }
 
-// True if the triangle reaches into a cell, with the depths it is listed with.
+// True if the triangle reaches into a cell, with the depths for its list entry.
 bool primitive_reaches(PrimitiveGrid grid, vec3 a, vec3 b, vec3 c, ivec2 cell, out vec2 depths) {
     bool reaches = primitive_overlap(grid, a, b, c, cell, depths);
     if (PRIMITIVE_DEPTHS == PRIMITIVE_DEPTHS_CORNERS && reaches) {

@@ -16,7 +16,7 @@ void primitive_from_bounds(PrimitiveRef s, vec3 lower, vec3 upper) {
     }
     vec3 first = lower - centre;
     vec3 last = upper - centre;
-    // Factor by which an error is longer as views see it.
+    // Factor by which a view's transformation lengthens an error.
     float scale = 1.0;
     float distance_from_centre = box_reach(first, last);
     if (PRIMITIVE_VIEWS == PRIMITIVE_VIEWS_CAMERA) {
@@ -29,16 +29,16 @@ void primitive_from_bounds(PrimitiveRef s, vec3 lower, vec3 upper) {
         scale = PRIMITIVE_CAMERA_ROUNDING * largest_axis(size[0] + size[1] + size[2]);
     }
     float reach = box_reach(first, last);
-    // A difference of two coordinates is rounded relative to itself, so it does not matter how far the centre is from the
-    // frame origin.
+    // A difference of two coordinates is rounded relative to itself, so the distance of the centre from the
+    // frame origin does not matter.
     float rounding = TRIANGLE_ROUNDING * max(reach, scale * distance_from_centre);
     PRIMITIVE_HEADER(s).centre = centre;
     PRIMITIVE_HEADER(s).reach = reach;
     PRIMITIVE_HEADER(s).rounding = rounding;
     PRIMITIVE_HEADER(s).lower = first - rounding;
     PRIMITIVE_HEADER(s).upper = last + rounding;
-    // Hits of a ray outside of the near region are not behind the centre, also where tiles are few. Depths are
-    // positive, also where all geometry is at the eye.
+    // Hits of a ray outside the near region are not behind the centre, even if there are few tiles. Depths
+    // are positive, even if all geometry is at the eye.
     float near = max(NEAR_REGION * float(PRIMITIVE_HEADER(s).tiles) * reach, 2.0 * rounding);
     PRIMITIVE_HEADER(s).near_size = max(near, PLACEMENT_SMALLEST);
 }

@@ -18,8 +18,8 @@ vec3 primitive_turned(mat3 turn, vec3 v) {
     return turned;
 }
 
-// A point relative to the centre, or a direction, in the space of the faces; with the camera's view alone in one that is
-// turned and scaled so that the pyramid of face 0 is what the camera sees.
+// Transforms a point relative to the centre, or a direction, into the space of the faces. With the camera's
+// view alone that space is turned and scaled so that the pyramid of face 0 is the view of the camera.
 vec3 primitive_seen(PrimitiveRef s, vec3 v) {
     if (PRIMITIVE_VIEWS == PRIMITIVE_VIEWS_CUBE) {
         return v;

@@ -8,13 +8,13 @@
 #include "ads/march_skip.glsl"
 #include "primitive/header.glsl"
 
-// Half a pixel in x/z; a face is 2 wide.
+// Returns half a pixel in x/z; a face is 2 wide.
 float primitive_half_pixel(PrimitiveRef s) {
     return 1.0 / float(PRIMITIVE_HEADER(s).tiles * PRIMITIVE_HEADER(s).tile);
 }
 
-// Goes on to the tile half a pixel behind the exit from a tile or a block of them, or to that of the
-// segment's end; false behind it. A face takes at most two jumps per pixel and one step per tile.
+// Goes on to the tile half a pixel behind the exit from a tile or a block of tiles, or to the tile of the
+// segment's end; false behind that. A face takes at most two jumps per pixel and one step per tile.
 bool primitive_jump(PrimitiveRef s, inout CellMarch m, MarchSkip skip) {
     m.neighbours = 0u;
     if (!skip.step_x && !skip.step_y) {
@@ -29,7 +29,7 @@ bool primitive_jump(PrimitiveRef s, inout CellMarch m, MarchSkip skip) {
     float landing = leaves[axis] / leaves.z + float(way) * primitive_half_pixel(s);
     float error;
     float t = march_crossing(landing, m.origin[axis], m.direction[axis], m.origin.z, m.direction.z, way, error);
-    // Where the half pixel is lost in rounding, the march is the exact one, so that every ray ends.
+    // If the half pixel is lost in rounding, the march is the exact one, so that every ray ends.
     if (!(t > skip.t_out)) {
         bool more = march_take_skip(m, skip);
         m.neighbours = 0u;
@@ -46,7 +46,7 @@ bool primitive_jump(PrimitiveRef s, inout CellMarch m, MarchSkip skip) {
     ivec2 cell = march_cell_at(m.origin, m.direction, t, m.resolution);
     bvec2 up = greaterThan(m.step_direction, ivec2(0));
     bvec2 still = equal(m.step_direction, ivec2(0));
-    // Never back.
+    // The march never goes back.
     m.cell = mix(mix(min(cell, m.cell), max(cell, m.cell), up), m.cell, still);
     m.t_in = t;
     m.error_in = error;
@@ -55,7 +55,7 @@ bool primitive_jump(PrimitiveRef s, inout CellMarch m, MarchSkip skip) {
     return true;
 }
 
-// Point at which the ray entered its new tile, not before the segment.
+// Returns the t at which the ray entered its new tile, not before the segment.
 float primitive_jumped_entry(CellMarch m, float t_begin) {
     float t_in = t_begin;
     for (int axis = 0; axis < 2; axis++) {

@@ -10,18 +10,18 @@
 #include "ads/geometry.glsl"
 #include "primitive/accessors.glsl"
 
-// A list that is being read.
+// Cursor of a list that is being read.
 struct PrimitiveCursor {
     uint at;              // link, or place of the next entry
     uint end;             // place after the last entry, contiguous only
 };
 
-// Entries that the build has stored.
+// Returns the number of entries that the build has stored.
 uint primitive_stored(PrimitiveRef s) {
     return min(PRIMITIVE_HEADER(s).capacity, PRIMITIVE_HEADER(s).demand);
 }
 
-// A list from its begin. A contiguous one that leaves the pool or runs backwards is counted and is empty.
+// Begins a list. A contiguous list that leaves the pool or runs backwards is counted and is empty.
 PrimitiveCursor primitive_list_begin(PrimitiveRef s, uint list) {
     uint word = PRIMITIVE_POOL(s, lists)[list];
     if (PRIMITIVE_STORAGE == PRIMITIVE_STORAGE_LINKED) {
@@ -35,7 +35,7 @@ PrimitiveCursor primitive_list_begin(PrimitiveRef s, uint list) {
     return PrimitiveCursor(begin, word);
 }
 
-// A list that has been read up to `at`.
+// Resumes a list that has been read up to `at`.
 PrimitiveCursor primitive_list_resume(PrimitiveRef s, uint list, uint at) {
     return PrimitiveCursor(at, PRIMITIVE_STORAGE == PRIMITIVE_STORAGE_LINKED ? 0u : PRIMITIVE_POOL(s, lists)[list]);
 }
@@ -44,8 +44,8 @@ bool primitive_list_ended(PrimitiveCursor cursor) {
     return PRIMITIVE_STORAGE == PRIMITIVE_STORAGE_LINKED ? cursor.at == 0u : cursor.at >= cursor.end;
 }
 
-// The next triangle of a list that has not ended. An entry past the end of the pool is counted and ends
-// the list with PRIMITIVE_NONE; one with an invalid index is counted and is PRIMITIVE_NONE.
+// Returns the next triangle of a list that has not ended. An entry past the end of the pool is counted and
+// ends the list with PRIMITIVE_NONE; an entry with an invalid index is counted and gives PRIMITIVE_NONE.
 uint primitive_list_next(PrimitiveRef s, inout PrimitiveCursor cursor) {
     uint entry = PRIMITIVE_STORAGE == PRIMITIVE_STORAGE_LINKED ? cursor.at - 1u : cursor.at;
     if (entry >= primitive_stored(s)) {
@@ -73,7 +73,7 @@ void primitive_list_count_one(PrimitiveRef s, uint list) {
     atomicAdd(PRIMITIVE_POOL(s, lists)[list], 1u);
 }
 
-// Puts a triangle into a list, or counts that the capacity did not suffice.
+// Puts a triangle into a list, or counts that the capacity was too small.
 void primitive_list_store(PrimitiveRef s, uint list, uint primitive) {
     if (PRIMITIVE_STORAGE == PRIMITIVE_STORAGE_CONTIGUOUS) {
         LIST_APPEND(PRIMITIVE_POOL(s, lists)[list], PRIMITIVE_HEADER(s).capacity, PRIMITIVE_POOL(s, entries), 0u, primitive)

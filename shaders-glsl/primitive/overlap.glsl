@@ -10,7 +10,7 @@
 #include "ads/overlap.glsl"
 #include "primitive/header.glsl"
 
-// The corners of a triangle as a face sees them.
+// Returns the corners of a triangle in the space of a face.
 void primitive_face_vertices(PrimitiveRef s, uint primitive, uint face, out vec3 a, out vec3 b, out vec3 c) {
     geometry_vertices(primitive, a, b, c);
     vec3 eye = PRIMITIVE_HEADER(s).centre;
@@ -19,7 +19,7 @@ void primitive_face_vertices(PrimitiveRef s, uint primitive, uint face, out vec3
     c = face_from_world(primitive_seen(s, c - eye), face);
 }
 
-// True if a triangle is in any list: one without area is never hit, so it is in none.
+// True if a triangle is in any list: a triangle without area is never hit, so it is in none.
 bool primitive_is_listed(uint primitive) {
     vec3 a;
     vec3 b;
@@ -28,8 +28,8 @@ bool primitive_is_listed(uint primitive) {
     return triangle_has_area(a, b, c);
 }
 
-// The values of the header that decide which cells list a triangle. Precise expressions take values from here: with
-// addresses, glslang does not end where they follow a reference.
+// Values of the header that decide which cells list a triangle. Precise expressions take values from such a
+// local copy: with addresses, glslang does not end if they follow a reference.
 struct PrimitiveGrid {
     uint tiles;
     float near_size;
@@ -42,7 +42,7 @@ PrimitiveGrid primitive_grid(PrimitiveRef s) {
         PRIMITIVE_HEADER(s).reach);
 }
 
-// Reach of cells beyond their sides, in x/z, so that rounding moves no triangle out of a cell in
+// Returns the reach of cells beyond their sides, in x/z, so that rounding moves no triangle out of a cell in
 // which a ray hits it.
 float primitive_margin(PrimitiveGrid grid, vec3 a, vec3 b, vec3 c) {
     float nearest = max(min(a.z, min(b.z, c.z)), grid.near_size);
@@ -50,7 +50,7 @@ float primitive_margin(PrimitiveGrid grid, vec3 a, vec3 b, vec3 c) {
     return margin;
 }
 
-// True if a triangle reaches into a cell of a face, with its depths there. a, b, c in face space.
+// True if a triangle reaches into a cell of a face, with its depths there. a, b, c are in face space.
 bool primitive_overlap(PrimitiveGrid grid, vec3 a, vec3 b, vec3 c, ivec2 cell, out vec2 depths) {
     precise float half_side = 1.0 / float(grid.tiles) + primitive_margin(grid, a, b, c);
     return overlap_at(grid.near_size, overlap_begin(a, b, c), coverage_center(cell, grid.tiles), half_side, depths);

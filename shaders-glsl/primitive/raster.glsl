@@ -8,7 +8,7 @@
 #include "primitive/names.glsl"
 #include "ads/build_constants.glsl"
 
-// The cell of a fragment and the triangle's depths there; false where the triangle is not listed.
+// Finds the cell of a fragment and the triangle's depths there; false if the triangle is not listed.
 bool primitive_fragment(uint primitive, uint face, vec4 frag_coord, out uint cell, out vec2 depths) {
     PrimitiveGrid grid = primitive_grid(build.structure);
     ivec2 place = ivec2(frag_coord.xy) - 1;
@@ -18,7 +18,7 @@ bool primitive_fragment(uint primitive, uint face, vec4 frag_coord, out uint cel
     vec3 c;
     primitive_face_vertices(build.structure, primitive, face, a, b, c);
     if (PRIMITIVE_COVERAGE == PRIMITIVE_COVERAGE_HARDWARE) {
-        // Coverage by the rasterizer: a triangle that covers no centre is in no list.
+        // With coverage by the rasterizer, a triangle that covers no centre is in no list.
         if (!primitive_overlap(grid, a, b, c, place, depths)) {
             depths = vec2(1.0 / frag_coord.w);
         }

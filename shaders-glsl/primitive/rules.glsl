@@ -8,7 +8,7 @@
 #include "ads/evaluate.glsl"
 #include "primitive/lists.glsl"
 
-// A tile of a face, and the ray in the face's space.
+// Tile of a face, and the ray in the face's space.
 struct PrimitiveTile {
     vec3 origin;
     vec3 direction;
@@ -22,8 +22,8 @@ bool primitive_in_tile(PrimitiveRef s, PrimitiveTile tile, float t) {
     return point.z > 0.0 && all(equal(floor(place), vec2(tile.cell)));
 }
 
-// Tests a candidate that a tile lists. A hit counts by its t alone, in whatever cell it lies, unless the paper's rule is
-// chosen. True if it became the best hit.
+// Tests a candidate that a tile lists. A hit counts by its t alone, in whatever cell it lies, unless the
+// paper's rule is chosen. Returns true if it became the best hit.
 bool primitive_test_in_tile(PrimitiveRef s, PrimitiveTile tile, uint primitive, Ray ray, inout TraceState state) {
     float infinity = uintBitsToFloat(0x7F800000u);
     float t;

@@ -8,7 +8,7 @@
 
 #include "primitive/rules.glsl"
 
-// One search, able to stop between two entries.
+// Search of a cell, which can stop between two entries.
 struct PrimitiveSearch {
     uint cell;
     float t_low;          // the ray's interval in the cell, widened by the errors of its ends
@@ -20,7 +20,7 @@ struct PrimitiveSearch {
     PrimitiveCursor list;
 };
 
-// Depths between two t, widened by rounding: that of the ray, and `rounding` of the triangles.
+// Returns the depths of the ray between two t, widened by its rounding and by `rounding` of the triangles.
 vec2 primitive_ray_depths(float origin_z, float direction_z, float t_low, float t_high, float rounding) {
     float low = origin_z + t_low * direction_z;
     float high = origin_z + t_high * direction_z;
@@ -28,7 +28,8 @@ vec2 primitive_ray_depths(float origin_z, float direction_z, float t_low, float 
     return vec2(min(low, high) - error, max(low, high) + error);
 }
 
-// Returns true if the work budget ended before the search did. `slack` bounds the error of a t.
+// Searches a cell. Returns true if the work budget ended before the search did. `slack` bounds the error of a
+// t.
 bool primitive_search(PrimitiveRef s, Ray ray, PrimitiveTile tile, float slack, bool any_hit, inout PrimitiveSearch search,
     inout TraceState state, inout uint work) {
     float origin_z = tile.origin.z;

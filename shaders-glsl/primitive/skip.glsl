@@ -8,13 +8,14 @@
 #include "primitive/pyramid.glsl"
 #include "primitive/traversal.glsl"
 
-// Start of the search for a block. A face has at most 14 levels.
+// Returns the level at which the search for a block starts. A face has at most 14 levels.
 PyramidLevel primitive_skip_from(PrimitiveRef s) {
     PyramidLevel first = primitive_pyramid_first(s, 0u);
     return PRIMITIVE_PYRAMID == PRIMITIVE_PYRAMID_COARSEST ? pyramid_top(first) : first;
 }
 
-// The largest block around the traversal's cell that lists nothing at the ray's depths; false where none does.
+// Finds the largest block around the traversal's cell that lists nothing at the ray's depths; false if there
+// is none.
 bool primitive_skip(PrimitiveRef s, PrimitiveTraversal traversal, PyramidLevel level, out MarchSkip skip) {
     float rounding = PRIMITIVE_HEADER(s).rounding;
     bool descends = PRIMITIVE_PYRAMID == PRIMITIVE_PYRAMID_COARSEST;
@@ -29,7 +30,8 @@ bool primitive_skip(PrimitiveRef s, PrimitiveTraversal traversal, PyramidLevel l
             skip = over;
             found = true;
         }
-        // Blocks around one that holds something hold it, too, and those within one that is left out are.
+        // Blocks around one that holds something also hold it, and blocks within one that can be skipped can
+        // be skipped as well.
         if (is_left_out == descends || level.level == 1u && descends || level.side == 1u && !descends) {
             break;
         }

@@ -17,7 +17,8 @@
 #define LISTED_NEAR(s) PRIMITIVE_POOL(s, near)
 #include "ads/listed.glsl"
 
-// Searches the cells of one face. True if the budget ended first; `ended` where no hit behind can count.
+// Searches the cells of one face. Returns true if the budget ended first; sets `ended` if no hit behind can
+// count.
 bool primitive_trace_cells(PrimitiveRef s, Ray ray, float slack, bool any_hit, inout PrimitiveTraversal traversal,
     inout TraceState state,
     inout uint work, out bool ended) {
@@ -43,7 +44,7 @@ bool primitive_trace_cells(PrimitiveRef s, Ray ray, float slack, bool any_hit, i
             trace_log_visit(STEP_CELL, traversal.segment.face, uint(traversal.searched.x), uint(traversal.searched.y),
                 traversal.search.t_low, traversal.search.t_high);
             MarchSkip skip;
-            // Anything touched outside of a cell lies within the bounds of its block.
+            // Anything touched outside a cell lies within the bounds of its block.
             if (PRIMITIVE_PYRAMID != PRIMITIVE_PYRAMID_OFF && all(equal(traversal.searched, traversal.cells.cell))
                 && primitive_skip(s, traversal, skip_from, skip)) {
                 trace_log(STEP_SKIP, SKIP_OUTSIDE, 0u, 0u, traversal.search.t_low, skip.t_out);
@@ -64,7 +65,7 @@ bool primitive_trace_cells(PrimitiveRef s, Ray ray, float slack, bool any_hit, i
     return false;
 }
 
-// True if a face has tiles: with the camera's view alone, what lies outside of it is passed.
+// True if a face has tiles: with the camera's view alone, rays pass everything outside it.
 bool primitive_is_drawn(uint face) {
     return face >= SEGMENT_NEAR || face < primitive_view_count();
 }
@@ -77,7 +78,7 @@ uint primitive_trace(PrimitiveRef s, Ray ray, inout TraceState state, bool any_h
     float slack = hit_slack(origin, direction, reach);
     bool distant = largest_coordinate(origin) > ORIGIN_LIMIT * reach;
     if (PRIMITIVE_VIEWS == PRIMITIVE_VIEWS_CAMERA) {
-        // Rounding is that of metres, too.
+        // The rounding of metres counts as well.
         float metres = box_reach(geometry_header.lower - PRIMITIVE_HEADER(s).centre,
             geometry_header.upper - PRIMITIVE_HEADER(s).centre);
         slack = max(slack, hit_slack(from_centre, ray.direction, metres));

@@ -19,7 +19,7 @@
 #define PRIMITIVE_CURSOR_FOUND 15, 1
 #define PRIMITIVE_CURSOR_BUCKET 16, 6
 
-// A ray within one face, within the near region, or among all triangles.
+// Traversal of a ray within one face, within the near region, or among all triangles.
 struct PrimitiveTraversal {
     Segment segment;
     vec3 origin;          // face space
@@ -54,7 +54,7 @@ void primitive_begin_traversal(PrimitiveRef s, vec3 origin, vec3 direction, inou
     }
 }
 
-// Prepares the search of the cell the traversal is at.
+// Prepares the search of the cell that the traversal is at.
 void primitive_begin_search(PrimitiveRef s, inout PrimitiveTraversal traversal) {
     traversal.search.t_low = traversal.cells.t_in - traversal.cells.error_in;
     if (PRIMITIVE_MARCH == PRIMITIVE_MARCH_JUMP) {

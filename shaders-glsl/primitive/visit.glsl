@@ -7,7 +7,7 @@
 
 #include "primitive/lists.glsl"
 
-// The buckets that hold any of `depths`. Bounds come from the same function, and bucket_of clamps.
+// Returns the buckets that hold any of `depths`. Bounds come from the same function, and bucket_of clamps.
 uvec2 primitive_buckets(PrimitiveBounds bounds, vec2 depths) {
     return uvec2(bucket_of(depths.x, bounds.z_min, bounds.scale, PRIMITIVE_BUCKETS),
         bucket_of(depths.y, bounds.z_min, bounds.scale, PRIMITIVE_BUCKETS));

@@ -53,14 +53,14 @@ vec3 scene_material_specular_color(uint material) {
     return material == MATERIAL_NONE ? vec3(1.0) : scene_material_table[material].specular_color;
 }
 
-// Word of its table of what rough glass loses, or ATTRIBUTE_NONE.
+// Returns the word of the material's table of the losses of rough glass, or ATTRIBUTE_NONE.
 uint scene_material_albedo(uint material) {
     return material == MATERIAL_NONE ? ATTRIBUTE_NONE : scene_material_table[material].albedo;
 }
 
 Texture scene_texture(uint texture_index) { return scene_texture_table[texture_index]; }
-// Texels are numbered over all runs: where one buffer would exceed what a binding holds, runs of equal length lie in
-// a buffer each.
+// Returns the bits of a texel. Texels are numbered over all runs: if one buffer would exceed the limit of a
+// binding, runs of equal length lie in a buffer each.
 uint scene_texel_bits(uint texel) {
     if (!SHADING_TEXEL_RUNS) return scene_texel_run_0[texel];
     uint shift = scene_frame_table.texel_shift;
@@ -71,7 +71,7 @@ uint scene_texel_bits(uint texel) {
     if (run == 2u) return scene_texel_run_2[place];
     return scene_texel_run_3[place];
 }
-// RGBA in [0, 1] as stored: no decoding.
+// Returns RGBA in [0, 1] as stored, without decoding.
 vec4 scene_texel(uint texel) {
     uint bits = scene_texel_bits(texel);
     return vec4(bits & 255u, (bits >> 8) & 255u, (bits >> 16) & 255u, bits >> 24) * (1.0 / 255.0);
@@ -87,8 +87,8 @@ vec3 scene_environment_texel(uint texel) {
     return vec3(scene_environment_table[word], scene_environment_table[word + 1u],
                 scene_environment_table[word + 2u]);
 }
-// Entries 0 to height - 1: cumulative share of the rows. Then `width` entries per row: cumulative
-// share within that row.
+// Returns an entry of the distribution. Entries 0 to height - 1 are the cumulative shares of the rows,
+// followed by `width` entries per row: cumulative shares within that row.
 float scene_environment_cdf(uint entry) { return scene_environment_cdf_table[entry]; }
 
 #endif

@@ -12,7 +12,7 @@
 // Mean of (1 - x)^5 over the hemisphere, weighted by the cosine x.
 #define ALBEDO_SCHLICK_MEAN (1.0 / 21.0)
 
-// Share of the light lost by facets that absorb nothing, seen under `cosine`.
+// Returns the share of the light lost by facets that absorb nothing, seen under `cosine`.
 float albedo_loss(float cosine, float alpha) {
     if (alpha < ALBEDO_LOSSLESS_ALPHA) return 0.0;
     float x = cosine / (cosine + alpha);
@@ -26,14 +26,15 @@ float albedo_loss(float cosine, float alpha) {
     return clamp((1.0 - x) * dot(p, vec4(1.0, alpha, squared, squared * alpha)), 0.0, 1.0);
 }
 
-// Mean of the loss over the hemisphere, weighted by the cosine.
+// Returns the mean of the loss over the hemisphere, weighted by the cosine.
 float albedo_loss_mean(float alpha) {
     if (alpha < ALBEDO_LOSSLESS_ALPHA) return 0.0;
     float r = sqrt(alpha);
     return max(r * (0.0204 + r * (-0.4171 + r * (2.5315 + r * (-1.7591 + 0.2196 * r)))), 1.0e-4);
 }
 
-// Share sent back by facets that reflect (1 - x)^5 under their own cosine x; `loss` is albedo_loss.
+// Returns the share sent back by facets that reflect (1 - x)^5 under their own cosine x; `loss` is
+// albedo_loss.
 float albedo_schlick(float cosine, float alpha, float loss) {
     float x = cosine / (cosine + alpha);
     float r = sqrt(alpha);
@@ -58,7 +59,7 @@ float albedo_schlick_mean(float alpha) {
     return ALBEDO_SCHLICK_MEAN + r * (0.01992 + r * (-0.26779 + r * (0.31214 - 0.10745 * r)));
 }
 
-// Share of the lost light that comes back where a facet reflects `facet` on average.
+// Returns the share of the lost light that comes back if a facet reflects `facet` on average.
 vec3 albedo_returned(vec3 facet, float loss_mean) {
     return facet * facet * (1.0 - loss_mean) / (1.0 - facet * loss_mean);
 }

@@ -9,7 +9,7 @@
 #include "scene/attributes.glsl"
 #include "scene/texture.glsl"
 
-// Alpha of the base colour at level 0, of a triangle of the geometry that is bound.
+// Returns the alpha of the base colour at level 0, of a triangle of the bound geometry.
 float alpha_at(DrawShading draw, uint primitive, vec2 barycentrics) {
     Material material = scene_material(draw.material);
     uvec3 triangle = geometry_triangle(primitive);
@@ -19,8 +19,9 @@ float alpha_at(DrawShading draw, uint primitive, vec2 barycentrics) {
     return attribute_base_color(draw, material, triangle, weights, texel).a;
 }
 
-// A triangle of the geometry that is bound, which may be a part: the scene knows it by its id. `barycentrics` are the
-// weights of vertices 1 and 2. True for every point of a draw that is not masked.
+// True if a point of a triangle counts as a hit: every point of a draw that is not masked. The triangle is of
+// the bound geometry, which may be a part; the scene knows it by its id. `barycentrics` are the weights of
+// vertices 1 and 2.
 bool alpha_accepts(uint primitive, vec2 barycentrics) {
     uint draw_index = scene_draw_of(geometry_id(primitive));
     if ((scene_draw_flags(draw_index) & DRAW_ALPHA_MASKED) == 0u) return true;

@@ -7,9 +7,10 @@
 #include "ads/triangle.glsl"
 #include "scene/surface.glsl"
 
-// The strength in [0, 1], and the direction along which the facets are rougher, not normalised; 0 where they are as rough in
-// all directions, where the triangle is not known, and where nothing says where its tangents point. The texture is that of
-// level 0: means of directions are none.
+// Returns the strength in [0, 1], and the direction along which the facets are rougher, not normalised. The
+// strength is 0 if facets are equally rough in all directions, if the triangle is not known, and if nothing
+// gives the direction of its tangents. The texture is that of level 0, since the mean of directions is not a
+// direction.
 float anisotropy_at(Surface s, out vec3 rougher) {
     rougher = vec3(0.0);
     if (s.primitive >= scene_frame().triangle_count) return 0.0;

@@ -25,7 +25,7 @@ vec4 attribute_color(DrawShading draw, uvec3 triangle, vec3 weights) {
          + weights.z * scene_vertex_vec4(words.z);
 }
 
-// Not normalised; zero where the draw is flat.
+// Returns the normal, not normalised; zero if the draw is flat.
 vec3 attribute_normal(DrawShading draw, uvec3 triangle, vec3 weights) {
     if (draw.normals == ATTRIBUTE_NONE) return vec3(0.0);
     uvec3 words = draw.normals + 3u * (triangle - draw.first_vertex);
@@ -34,7 +34,7 @@ vec3 attribute_normal(DrawShading draw, uvec3 triangle, vec3 weights) {
          + weights.z * scene_posed_vec3(words.z);
 }
 
-// xyz not normalised, w the sign of the bitangent; zero where the draw has no tangents.
+// Returns the tangent: xyz not normalised, w the sign of the bitangent; zero if the draw has no tangents.
 vec4 attribute_tangent(DrawShading draw, uvec3 triangle, vec3 weights) {
     if (draw.tangents == ATTRIBUTE_NONE) return vec4(0.0);
     uvec3 words = draw.tangents + 4u * (triangle - draw.first_vertex);
@@ -45,7 +45,7 @@ vec4 attribute_tangent(DrawShading draw, uvec3 triangle, vec3 weights) {
     return vec4(tangent, first.w);
 }
 
-// Base colour with alpha: factor times texture times vertex colour.
+// Returns the base colour with alpha: factor times texture times vertex colour.
 vec4 attribute_base_color(DrawShading draw, Material material, uvec3 triangle, vec3 weights, vec4 texel) {
     return material.base_color * texel * attribute_color(draw, triangle, weights);
 }

@@ -11,20 +11,21 @@ struct BsdfValue {
     float pdf;           // 1/sr with which bsdf_sample answers this direction
 };
 
-// Probability that a facet reflects what it does not absorb.
+// Returns the probability that a facet reflects the light that it does not absorb.
 float bsdf_reflect_probability(BsdfTerms terms, float cosine) {
     float reflected = luminance(bsdf_reflected(terms, cosine));
     float transmitted = luminance(bsdf_transmitted(terms, cosine));
     return transmitted > 0.0 ? reflected / (reflected + transmitted) : 1.0;
 }
 
-// Half vector of a refraction from o to i, on the side of the normal.
+// Returns the half vector of a refraction from o to i, on the side of the normal.
 vec3 bsdf_refraction_half(BsdfTerms terms, vec3 i) {
     vec3 h = normalize(terms.eta * terms.o + i);
     return h.z < 0.0 ? -h : h;
 }
 
-// 1 if i is reflected, -1 if transmitted, 0 if the normal that `cosine` is of and the geometric one disagree or i grazes.
+// Returns 1 if i is reflected, -1 if transmitted, 0 if the normal of `cosine` and the geometric one disagree
+// or i grazes.
 int bsdf_side(Surface s, vec3 world_i, float cosine) {
     float geometric = dot(s.geometric_normal, world_i);
     if (cosine > 0.0 && geometric > 0.0) return 1;
@@ -32,26 +33,26 @@ int bsdf_side(Surface s, vec3 world_i, float cosine) {
     return 0;
 }
 
-// D(h) of the facets, 1/sr.
+// Returns D(h) of the facets, 1/sr.
 float bsdf_distribution(BsdfTerms terms, vec3 h) {
     if (terms.anisotropic) return ggx_distribution(h, terms.alphas);
     return ggx_distribution(h, terms.alpha);
 }
 
-// G(o, i) / (4 |cos o cos i|) of the facets.
+// Returns G(o, i) / (4 |cos o cos i|) of the facets.
 float bsdf_visibility(BsdfTerms terms, vec3 i) {
     if (terms.anisotropic) return ggx_visibility(terms.o, i, terms.alphas);
     return ggx_visibility(terms.o.z, abs(i.z), terms.alpha);
 }
 
-// G1(o) / (4 cos o) of the facets.
+// Returns G1(o) / (4 cos o) of the facets.
 float bsdf_visibility_one(BsdfTerms terms) {
     if (terms.anisotropic) return ggx_visibility_one(terms.o, terms.alphas);
     return ggx_visibility_one(terms.o.z, terms.alpha);
 }
 
-// Scattering of the rough microfacet family towards local i: share of the value and density. The share
-// is per unit of reflected (x) or transmitted light at the facet, whose cosine is `facet_cosine`.
+// Evaluates scattering of the rough microfacet family towards local i: share of the value and density. The
+// share is per unit of reflected (x) or transmitted light at the facet, whose cosine is `facet_cosine`.
 void bsdf_facets(BsdfTerms terms, vec3 i, int side, out float facet_cosine, out float value, out float pdf) {
     facet_cosine = 0.0;
     value = 0.0;
@@ -85,7 +86,8 @@ void bsdf_facets(BsdfTerms terms, vec3 i, int side, out float facet_cosine, out 
     pdf = distribution * bsdf_visibility_one(terms) * 4.0 * cosine_o * jacobian;
 }
 
-// Value and density towards i; o and i are unit and point away from the surface. Delta lobes are left out.
+// Returns value and density towards i; o and i are unit and point away from the surface. Delta lobes are left
+// out.
 BsdfValue bsdf_towards(BsdfTerms terms, Surface s, vec3 i) {
     BsdfValue result = BsdfValue(vec3(0.0), 0.0);
     vec3 local = i * terms.frame;
@@ -110,16 +112,16 @@ BsdfValue bsdf_towards(BsdfTerms terms, Surface s, vec3 i) {
     return result;
 }
 
-// 1/sr, cosine at the shading normal not included.
+// Returns the value, 1/sr; the cosine at the shading normal is not included.
 vec3 bsdf_evaluate(Surface s, vec3 o, vec3 i) {
     float cosine = abs(dot(s.normal, i));
     return cosine > 0.0 ? bsdf_towards(bsdf_terms(s, o), s, i).value / cosine : vec3(0.0);
 }
 
-// 1/sr with which bsdf_sample answers i.
+// Returns the density, 1/sr, with which bsdf_sample chooses i.
 float bsdf_pdf(Surface s, vec3 o, vec3 i) { return bsdf_towards(bsdf_terms(s, o), s, i).pdf; }
 
-// i refracted at the facet, or straight on through a thin wall. False beyond the critical angle.
+// Refracts o at the facet into i, or straight on through a thin wall. False beyond the critical angle.
 bool bsdf_refract(BsdfTerms terms, vec3 h, out vec3 i) {
     float cosine = dot(terms.o, h);
     if (terms.eta == 1.0) {
@@ -134,9 +136,10 @@ bool bsdf_refract(BsdfTerms terms, vec3 h, out vec3 i) {
     return true;
 }
 
-// A direction that one of the lobes chooses; weight and pdf of one that is no delta are those of bsdf_chosen. Random
-// numbers: lobe, side, and two for the direction. flags 0: absorbed. `terms` are of the surface and the direction from
-// which it is seen: what asks for several things of them makes them once.
+// Chooses a direction by one of the lobes; weight and pdf of a direction that is not a delta are those of
+// bsdf_chosen. The random numbers are for the lobe, the side, and two for the direction. flags 0: absorbed.
+// `terms` are of the surface and the direction from which it is seen, so that a caller with several uses
+// makes them once.
 BsdfSample bsdf_choose(BsdfTerms terms, Surface s, vec4 random) {
     BsdfSample chosen = BsdfSample(vec3(0.0, 0.0, 1.0), 0.0, vec3(0.0), 0u);
     if (terms.o.z <= 0.0) return chosen;
@@ -177,7 +180,7 @@ BsdfSample bsdf_choose(BsdfTerms terms, Surface s, vec4 random) {
         }
     }
     vec3 world = normalize(terms.frame * local);
-    // A facet can send light through the surface as a whole; the cosine family makes up for what is lost so.
+    // A facet can send light through the surface as a whole; the cosine family compensates for this loss.
     float cosine = random.x < family ? dot(local, terms.base) : local.z;
     if (bsdf_side(s, world, cosine) != expected) return chosen;
     return BsdfSample(world, 0.0, vec3(0.0), flags);
@@ -186,7 +189,7 @@ BsdfSample bsdf_choose(BsdfTerms terms, Surface s, vec4 random) {
 // True if a direction that was chosen still needs bsdf_chosen.
 bool bsdf_is_open(BsdfSample chosen) { return chosen.flags != 0u && (chosen.flags & SAMPLE_DELTA) == 0u; }
 
-// The sample of a direction that was chosen, from what all lobes do towards it.
+// Returns the sample of a direction that was chosen, from the sum of all lobes towards it.
 BsdfSample bsdf_chosen(BsdfSample chosen, BsdfValue towards) {
     BsdfSample absorbed = BsdfSample(vec3(0.0, 0.0, 1.0), 0.0, vec3(0.0), 0u);
     if (!(towards.pdf > 0.0) || towards.pdf > 1.0e30) return absorbed;
@@ -195,7 +198,7 @@ BsdfSample bsdf_chosen(BsdfSample chosen, BsdfValue towards) {
     return BsdfSample(chosen.direction, towards.pdf, weight, chosen.flags);
 }
 
-// Both in one.
+// Chooses a direction and completes its sample.
 BsdfSample bsdf_sample(BsdfTerms terms, Surface s, vec4 random) {
     BsdfSample chosen = bsdf_choose(terms, s, random);
     if (!bsdf_is_open(chosen)) return chosen;

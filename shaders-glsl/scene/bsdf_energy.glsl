@@ -9,12 +9,13 @@
 #include "scene/albedo.glsl"
 #include "scene/bsdf_facets.glsl"
 
-// Mean reflectance of the dielectric's facets on the side of the smaller index.
+// Returns the mean reflectance of the dielectric's facets on the side of the smaller index.
 vec3 bsdf_facet_mean(BsdfTerms terms) {
     return terms.f0 + (vec3(terms.f90) - terms.f0) * ALBEDO_SCHLICK_MEAN;
 }
 
-// Share of the light from `cosine` that the dielectric as a whole does not reflect, by its brightest channel.
+// Returns the share of the light from `cosine` that the dielectric as a whole does not reflect, by its
+// brightest channel.
 float bsdf_entering(BsdfTerms terms, float cosine, float loss) {
     if (terms.eta > 1.0) {
         if (terms.glass.first != ATTRIBUTE_NONE) return 1.0 - glass_albedo(terms.glass, GLASS_REFLECTED, cosine);
@@ -25,8 +26,9 @@ float bsdf_entering(BsdfTerms terms, float cosine, float loss) {
     return max(1.0 - once - terms.returned_most * loss, 0.0);
 }
 
-// Mean share of the light that the dielectric's facets let through, by its brightest channel. From the side of the
-// larger index it is smaller by the square of the ratio: beyond the critical angle nothing goes through.
+// Returns the mean share of the light that the dielectric's facets let through, by its brightest channel.
+// From the side of the larger index it is smaller by the square of the ratio: beyond the critical angle
+// nothing goes through.
 float bsdf_facet_through(BsdfTerms terms) {
     float through = 1.0 - largest_component(bsdf_facet_mean(terms));
     return terms.eta > 1.0 ? through / (terms.eta * terms.eta) : through;
@@ -43,8 +45,8 @@ float bsdf_entering_mean(BsdfTerms terms) {
     return max(1.0 - once - terms.returned_most * terms.loss_mean, 1.0e-3);
 }
 
-// Sets the terms of light that one scattering at the boundary of a rough volume loses: it goes through as facets let
-// it, but no more than is lost for light that takes the same way back.
+// Sets the terms of light that one scattering at the boundary of a rough volume loses: it goes through as
+// facets let it, but no more than the loss of light on the way back.
 void bsdf_set_glass(inout BsdfTerms terms, Surface s) {
     terms.glass = GlassRows(ATTRIBUTE_NONE, 0.0);
     terms.glass_side = s.side == 1u ? GLASS_LOST_FRONT : GLASS_LOST_BACK;
@@ -73,8 +75,8 @@ void bsdf_set_glass(inout BsdfTerms terms, Surface s) {
     terms.glass_passed = terms.base_color * (share * through);
 }
 
-// Sets the terms of light that one scattering loses, where it is not a volume's. Losses of the dielectric on the side
-// of the larger index count as let in.
+// Sets the terms of light that one scattering loses outside volumes. Losses of the dielectric on the side of
+// the larger index count as let in.
 void bsdf_set_energy(inout BsdfTerms terms) {
     terms.loss_o = albedo_loss(max(terms.o.z, 0.0), terms.alpha);
     terms.loss_mean = albedo_loss_mean(terms.alpha);
@@ -100,7 +102,8 @@ void bsdf_set_no_facets(inout BsdfTerms terms) {
     terms.entering_mean = 1.0;
 }
 
-// Light that left the boundary of a rough volume after several scatterings, 1/sr; as bsdf_cosine_family.
+// Returns the light that left the boundary of a rough volume after several scatterings, 1/sr; arguments as
+// for bsdf_cosine_family.
 vec3 bsdf_glass(BsdfTerms terms, float cosine, int side) {
     if (!SHADING_TRANSMISSION || !(terms.glass_mean > 0.0)) return vec3(0.0);
     uint block = side > 0 ? terms.glass_side : GLASS_LOST_BACK - terms.glass_side;

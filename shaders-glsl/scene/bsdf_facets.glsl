@@ -40,8 +40,8 @@ struct BsdfTerms {
     vec3 glass_passed;   // share of the lost light that goes through
 };
 
-// Reflected share of the dielectric at a facet seen under `cosine`. Schlick's curve holds on the side
-// of the smaller index; beyond the critical angle everything is reflected.
+// Returns the reflected share of the dielectric at a facet seen under `cosine`. Schlick's curve holds on the
+// side of the smaller index; beyond the critical angle everything is reflected.
 vec3 bsdf_fresnel(BsdfTerms terms, float cosine) {
     float x = cosine;
     if (terms.eta > 1.0) {
@@ -58,7 +58,7 @@ vec3 bsdf_reflected(BsdfTerms terms, float cosine) {
     return mix(bsdf_fresnel(terms, cosine), metal, terms.metallic);
 }
 
-// Share of the surface that lets light through.
+// Returns the share of the surface that lets light through.
 float bsdf_volume_share(BsdfTerms terms) {
     return (1.0 - terms.metallic) * terms.transmission;
 }
@@ -72,7 +72,7 @@ vec3 bsdf_transmitted(BsdfTerms terms, float cosine) {
     return SHADING_PANES && terms.pane ? vec3(0.0) : bsdf_facet_transmitted(terms, cosine);
 }
 
-// Share of the light that a pane lets through in a straight line; 0 of everything else.
+// Returns the share of the light that a pane lets through in a straight line; 0 for everything else.
 vec3 bsdf_straight(BsdfTerms terms) {
     return SHADING_PANES && terms.pane && terms.o.z > 0.0 ? bsdf_facet_transmitted(terms, terms.o.z) : vec3(0.0);
 }

@@ -19,21 +19,21 @@ float anisotropy_at(Surface s, out vec3 rougher) {
 #include "scene/anisotropy.glsl"
 #endif
 
-// Bounds of the probability of the cosine family where both families exist. It may exceed its share of the light by
-// this factor: near the horizon it sends more than cosines tell.
+// Bound of the probability of the cosine family if both families exist. The probability may exceed its share
+// of the light by this factor: near the horizon the family sends more than cosines tell.
 #define BSDF_COSINE_LEAST 0.05
 #define BSDF_COSINE_FACTOR 4.0
 #define BSDF_COSINE_MOST 0.95
-// Cosine to which the facets' normal is bent where the shading normal faces away from o.
+// Cosine to which the facets' normal is bent if the shading normal faces away from o.
 #define BSDF_NORMAL_COSINE 0.01
-// Height of a mirrored direction over the geometric surface: at least this, or this share of that of o where o itself
-// grazes. Below 1, so that a normal that agrees with the surface keeps its bits.
+// Least height of a mirrored direction over the geometric surface: this, or this share of the height of o if
+// o itself grazes. It is less than 1, so that a normal that agrees with the surface keeps its bits.
 #define BSDF_MIRRORED_HEIGHT 0.01
 #define BSDF_MIRRORED_SHARE 0.9
 
-// The normal that facets lie around: the shading normal, bent until it faces o, and then just so far that o mirrored at
-// it leaves the geometric surface: the mirrored direction is lifted to the least height, and what lies halfway between
-// it and o mirrors one to the other.
+// Returns the normal around which facets lie: the shading normal, bent until it faces o, and then just so far
+// that the mirror image of o leaves the geometric surface. The mirrored direction is lifted to the least
+// height, and the vector halfway between it and o mirrors one to the other.
 vec3 bsdf_facet_normal(Surface s, vec3 o) {
     vec3 normal = s.normal;
     float cosine = dot(normal, o);
@@ -49,8 +49,8 @@ vec3 bsdf_facet_normal(Surface s, vec3 o) {
     return normalize(o + lifted);
 }
 
-// Turns the frame so that facets are rougher along its x axis, and makes them so. Facets that are smooth across it scatter all
-// the same.
+// Turns the frame so that facets are rougher along its x axis, and sets their roughness. Facets that are
+// smooth across this axis scatter without anisotropy.
 void bsdf_set_anisotropy(inout BsdfTerms terms, Surface s) {
     vec3 rougher;
     float strength = anisotropy_at(s, rougher);
@@ -89,7 +89,7 @@ BsdfTerms bsdf_terms(Surface s, vec3 o) {
     terms.eta = straight ? 1.0 : (s.side == 1u ? 1.0 / ior : ior);
     terms.frame = basis_around(bsdf_facet_normal(s, o));
     if (SHADING_ANISOTROPY) bsdf_set_anisotropy(terms, s);
-    // Nothing makes up for what Ward's lobe loses: the rest is as below a mirror.
+    // Nothing compensates for the losses of Ward's lobe; the rest is as below a mirror.
     if (terms.ward) terms.alpha = 0.0;
     terms.base = s.normal * terms.frame;
     terms.o = o * terms.frame;
@@ -99,12 +99,13 @@ BsdfTerms bsdf_terms(Surface s, vec3 o) {
     return terms;
 }
 
-// Share of the diffuse base.
+// Returns the share of the diffuse base.
 float bsdf_diffuse_share(BsdfTerms terms) {
     return (1.0 - terms.metallic) * (1.0 - terms.transmission);
 }
 
-// Probability with which a path goes straight through a pane that lets `straight` of the light through.
+// Returns the probability with which a path goes straight through a pane that lets `straight` of the light
+// through.
 float bsdf_straight_probability(BsdfTerms terms, vec3 straight) {
     float through = luminance(straight);
     if (!(through > 0.0)) return 0.0;
@@ -113,8 +114,8 @@ float bsdf_straight_probability(BsdfTerms terms, vec3 straight) {
     return through / (through + rest);
 }
 
-// Value of the cosine family, 1/sr: the diffuse base, and what left the facets after several scatterings. `cosine` of
-// the other direction is positive; `side` as of bsdf_side.
+// Returns the value of the cosine family, 1/sr: the diffuse base, and the light that left the facets after
+// several scatterings. `cosine` of the other direction is positive; `side` as for bsdf_side.
 vec3 bsdf_cosine_family(BsdfTerms terms, float cosine, int side) {
     if (!SHADING_FACETS) return side > 0 ? terms.base_color * (1.0 / MICROFACET_PI) : vec3(0.0);
     float loss = albedo_loss(cosine, terms.alpha);
@@ -127,7 +128,7 @@ vec3 bsdf_cosine_family(BsdfTerms terms, float cosine, int side) {
     return terms.returned * several + glass + terms.base_color * (share * through / MICROFACET_PI);
 }
 
-// Probability of the cosine family, and within it of going through the surface.
+// Returns the probability of the cosine family, and within it of going through the surface.
 void bsdf_cosine_probability(BsdfTerms terms, out float family, out float through) {
     if (!SHADING_FACETS) {
         family = luminance(terms.base_color) > 0.0 ? 1.0 : 0.0;

@@ -7,8 +7,8 @@
 #include "scene/microfacet.glsl"
 #include "scene/random.glsl"
 
-// Through the centre of the lens. `pixel_position` in pixels from the top left corner; the centre of the first pixel is
-// (0.5, 0.5).
+// Returns the ray through the centre of the lens. `pixel_position` is in pixels from the top left corner; the
+// centre of the first pixel is (0.5, 0.5).
 Ray camera_ray(vec2 pixel_position) {
     Frame frame = scene_frame();
     float x = (2.0 * pixel_position.x / float(frame.width) - 1.0) * frame.half_width;
@@ -21,15 +21,15 @@ Ray camera_ray(vec2 pixel_position) {
                frame.cone_width * frame.footprint_scale, frame.cone_spread * frame.footprint_scale);
 }
 
-// Uniform within the pixel.
+// Returns a position uniform within the pixel.
 vec2 camera_pixel_position(uint pixel, uint sample_index) {
     uint width = scene_frame().width;
     vec2 corner = vec2(pixel % width, pixel / width);
     return corner + random_place(pixel, sample_index, RANDOM_CAMERA_X);
 }
 
-// The ray of a sample through a place of its own on the lens, uniform on the disk: below cosine-distributed directions. It
-// meets `ray`, which goes through the centre, in the plane in focus.
+// Returns the ray of a sample through a place of its own on the lens, uniform on the disk, as below
+// cosine-distributed directions. It meets `ray`, which goes through the centre, in the plane in focus.
 Ray camera_through_lens(Ray ray, uint pixel, uint sample_index) {
     Frame frame = scene_frame();
     if (!(frame.lens_radius > 0.0)) return ray;

@@ -6,8 +6,8 @@
 
 #include "scene/alpha.glsl"
 
-// `front`: leaving from the counter-clockwise side of the mesh. Level 0; what is cut out emits
-// nothing, what is blended emits in proportion to its opacity.
+// Returns the emitted radiance. `front` if it leaves from the counter-clockwise side of the mesh. Textures
+// are at level 0; masked parts emit nothing, blended parts in proportion to their opacity.
 vec3 emission_at(DrawShading draw, uint primitive, vec2 barycentrics, bool front) {
     Material material = scene_material(draw.material);
     if (!front && (material.flags & MATERIAL_DOUBLE_SIDED) == 0u) return vec3(0.0);

@@ -21,19 +21,19 @@ uint environment_row(vec3 direction, uint height) {
     return min(uint(acos(clamp(direction.y, -1.0, 1.0)) / ENVIRONMENT_PI * float(height)), height - 1u);
 }
 
-// Steradians of a texel of the row.
+// Returns the solid angle of a texel of the row, steradians.
 float environment_solid_angle(uint row, uint width, uint height) {
     float step_angle = ENVIRONMENT_PI / float(height);
     return (2.0 * ENVIRONMENT_PI / float(width)) * 2.0 * sin(step_angle * (float(row) + 0.5)) * sin(0.5 * step_angle);
 }
 
-// Share of entry `index` in a run of cumulative shares that starts at `first`.
+// Returns the share of entry `index` in a run of cumulative shares that starts at `first`.
 float environment_share(uint first, uint index) {
     float above = scene_environment_cdf(first + index);
     return index == 0u ? above : above - scene_environment_cdf(first + index - 1u);
 }
 
-// First entry of the run whose cumulative share exceeds `random`.
+// Returns the first entry of the run whose cumulative share exceeds `random`.
 uint environment_search(uint first, uint count, float random) {
     uint low = 0u;
     uint high = count - 1u;
@@ -45,7 +45,7 @@ uint environment_search(uint first, uint count, float random) {
     return low;
 }
 
-// W/(sr m^2) that arrives against the unit `direction`.
+// Returns the radiance, W/(sr m^2), that arrives against the unit `direction`.
 vec3 environment_radiance(vec3 direction) {
     Frame frame = scene_frame();
     if (environment_is_constant(frame)) return frame.environment_radiance;
@@ -54,7 +54,7 @@ vec3 environment_radiance(vec3 direction) {
     return scene_environment_texel(row * frame.environment_width + column);
 }
 
-// 1/sr of environment_sample alone, without the choice among the kinds of light.
+// Returns the density, 1/sr, of environment_sample alone, without the choice among the kinds of light.
 float environment_pdf_of_texel(Frame frame, uint row, uint column) {
     float rows = environment_share(0u, row);
     float columns = environment_share(frame.environment_height + row * frame.environment_width, column);
@@ -68,9 +68,8 @@ float environment_pdf_alone(vec3 direction) {
                                     environment_column(direction, frame.environment_width));
 }
 
-// Chooses a direction; answers its radiance and its pdf (without the choice among kinds).
-// `pick` chooses the row, `place.x` the column and the azimuth within it, `place.y` the polar angle
-// within the row.
+// Chooses a direction, and returns its radiance and its pdf (without the choice among kinds). `pick` chooses
+// the row, `place.x` the column and the azimuth within it, `place.y` the polar angle within the row.
 vec3 environment_sample(float pick, vec2 place, out vec3 radiance, out float pdf) {
     Frame frame = scene_frame();
     float cosine;

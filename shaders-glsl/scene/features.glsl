@@ -4,59 +4,60 @@
 #ifndef SCENE_FEATURES_GLSL
 #define SCENE_FEATURES_GLSL
 
-// Any texture is referenced.
+// True if any texture is referenced.
 #ifndef SHADING_TEXTURES
 layout(constant_id = 90) const bool SCENE_HAS_TEXTURES = true;
 #define SHADING_TEXTURES SCENE_HAS_TEXTURES
 #endif
-// Any material transmits.
+// True if any material transmits.
 #ifndef SHADING_TRANSMISSION
 layout(constant_id = 91) const bool SCENE_HAS_TRANSMISSION = true;
 #define SHADING_TRANSMISSION SCENE_HAS_TRANSMISSION
 #endif
-// Any material blends.
+// True if any material blends.
 #ifndef SHADING_BLEND
 layout(constant_id = 92) const bool SCENE_HAS_BLEND = true;
 #define SHADING_BLEND SCENE_HAS_BLEND
 #endif
-// Paths go straight through smooth thin panes, as through blended surfaces: what a pane lets through is no scattering then.
-// An entry that wants it says so.
+// True if paths go straight through smooth thin panes, as through blended surfaces: light through a pane is
+// not a scattering then. An entry that wants this must set it.
 #ifndef SHADING_PANES
 #define SHADING_PANES false
 #endif
-// Anything lets light through in a straight line.
+// True if anything lets light through in a straight line.
 #define SHADING_PASSES (SHADING_BLEND || SHADING_PANES)
-// Texels lie in several buffers.
+// True if texels lie in several buffers.
 #ifndef SHADING_TEXEL_RUNS
 layout(constant_id = 94) const bool SCENE_HAS_TEXEL_RUNS = true;
 #define SHADING_TEXEL_RUNS SCENE_HAS_TEXEL_RUNS
 #endif
-// Any light without extent.
+// True if there is any light without extent.
 #ifndef SHADING_LIGHTS
 layout(constant_id = 97) const bool SCENE_HAS_LIGHTS = true;
 #define SHADING_LIGHTS SCENE_HAS_LIGHTS
 #endif
-// Any triangle is sampled as a light.
+// True if any triangle is sampled as a light.
 #ifndef SHADING_EMITTERS
 layout(constant_id = 98) const bool SCENE_HAS_EMITTERS = true;
 #define SHADING_EMITTERS SCENE_HAS_EMITTERS
 #endif
-// The environment is a map, and not one radiance.
+// True if the environment is a map, and not one radiance.
 #ifndef SHADING_ENVIRONMENT_MAP
 layout(constant_id = 99) const bool SCENE_HAS_ENVIRONMENT_MAP = true;
 #define SHADING_ENVIRONMENT_MAP SCENE_HAS_ENVIRONMENT_MAP
 #endif
-// Any draw has colours of its vertices.
+// True if any draw has colours of its vertices.
 #ifndef SHADING_COLORS
 layout(constant_id = 100) const bool SCENE_HAS_COLORS = true;
 #define SHADING_COLORS SCENE_HAS_COLORS
 #endif
-// Any material reflects at facets: it is specular or metallic, or transmits. All others have their diffuse base alone.
+// True if any material reflects at facets: it is specular or metallic, or transmits. All others have only
+// their diffuse base.
 #ifndef SHADING_FACETS
 layout(constant_id = 101) const bool SCENE_HAS_FACETS = true;
 #define SHADING_FACETS SCENE_HAS_FACETS
 #endif
-// Facets of any material are rougher along one direction.
+// True if facets of any material are rougher along one direction.
 #ifndef SHADING_ANISOTROPY
 layout(constant_id = 109) const bool SCENE_HAS_ANISOTROPY = true;
 #define SHADING_ANISOTROPY SCENE_HAS_ANISOTROPY

@@ -12,7 +12,7 @@
 #define GLASS_LOST_BACK 1u
 #define GLASS_REFLECTED 2u
 
-// The rows around a roughness.
+// Rows of the table around a roughness.
 struct GlassRows {
     uint first;          // word of the lower row in the first block, or ATTRIBUTE_NONE
     float above;         // weight of the row that follows
@@ -28,7 +28,8 @@ float glass_between(GlassRows rows, uint word) {
     return mix(scene_vertex_float(word), scene_vertex_float(word + GLASS_ROW_WORDS), rows.above);
 }
 
-// Cosines are spaced evenly in their root: losses change fastest where light grazes.
+// Reads a block of the table at a cosine. Cosines are spaced evenly in their root: losses change fastest
+// where light grazes.
 float glass_albedo(GlassRows rows, uint block, float cosine) {
     float place = sqrt(clamp(cosine, 0.0, 1.0)) * float(GLASS_ROW_WORDS - 2u);
     uint column = min(uint(place), GLASS_ROW_WORDS - 3u);
@@ -36,7 +37,7 @@ float glass_albedo(GlassRows rows, uint block, float cosine) {
     return mix(glass_between(rows, word), glass_between(rows, word + 1u), place - float(column));
 }
 
-// Mean over the hemisphere, weighted by the cosine.
+// Returns the mean over the hemisphere, weighted by the cosine.
 float glass_albedo_mean(GlassRows rows, uint block) {
     return glass_between(rows, rows.first + block * (GLASS_ROWS * GLASS_ROW_WORDS) + GLASS_ROW_WORDS - 1u);
 }

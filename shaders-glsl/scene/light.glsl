@@ -14,7 +14,7 @@ LightSample light_sample_none() {
     return LightSample(vec3(0.0, 0.0, 1.0), 0.0, vec3(0.0), 0.0, vec3(0.0), 0u, 0u);
 }
 
-// First punctual light whose cumulative share exceeds `random`.
+// Returns the first punctual light whose cumulative share exceeds `random`.
 uint light_search_punctual(uint count, float random) {
     uint low = 0u;
     uint high = count - 1u;
@@ -26,7 +26,8 @@ uint light_search_punctual(uint count, float random) {
     return low;
 }
 
-// Share of its light that a light without extent sends as far as `distance`, beside the square.
+// Returns the share of its light that a light without extent sends as far as `distance`, beside the inverse
+// square.
 float light_window(float distance, float range) {
     float ratio = distance / range;
     return clamp(1.0 - ratio * ratio * ratio * ratio, 0.0, 1.0);
@@ -61,7 +62,7 @@ LightSample light_sample_punctual(Frame frame, vec3 from, float pick) {
     return chosen;
 }
 
-// First entry whose cumulative share exceeds `random`.
+// Returns the first entry whose cumulative share exceeds `random`.
 uint light_search_emissive(uint count, float random) {
     uint low = 0u;
     uint high = count - 1u;
@@ -78,8 +79,8 @@ float light_emissive_share(uint entry) {
     return entry == 0u ? above : above - scene_emissive_cumulative(entry - 1u);
 }
 
-// 1/sr of a point uniform on a triangle, as seen along the unit `direction` from `distance` away.
-// 0 edge-on.
+// Returns the density, 1/sr, of a point uniform on a triangle, as seen along the unit `direction` from
+// `distance` away; 0 edge-on.
 float light_area_pdf(vec3 normal, float twice_area, vec3 direction, float distance) {
     float projected = 0.5 * twice_area * abs(dot(normal, direction));
     return projected > 0.0 ? distance * distance / projected : 0.0;
@@ -118,7 +119,8 @@ LightSample light_sample_emissive(Frame frame, vec3 from, float pick, vec2 place
     return chosen;
 }
 
-// A direction from the surface to a light, one random number for each of: kind, light or row, place.
+// Chooses a direction from the surface to a light, with one random number for each of: kind, light or row,
+// place.
 LightSample light_sample(Surface s, vec4 random) {
     Frame frame = scene_frame();
     vec3 shares = frame.kind_shares;
@@ -141,7 +143,7 @@ LightSample light_sample(Surface s, vec4 random) {
     return chosen;
 }
 
-// The ray that tests whether the sample is visible from the surface.
+// Returns the ray that tests whether the sample is visible from the surface.
 Ray light_shadow_ray(Surface s, LightSample chosen) {
     Ray ray;
     if (chosen.distance < LIGHT_INFINITY) ray = spawn_segment(s, chosen.target);
@@ -150,7 +152,8 @@ Ray light_shadow_ray(Surface s, LightSample chosen) {
     return ray;
 }
 
-// 1/sr with which light_sample chooses `position` on `primitive` from `origin`; 0 if it never does.
+// Returns the density, 1/sr, with which light_sample chooses `position` on `primitive` from `origin`; 0 if it
+// never does.
 float light_pdf_emitter(uint primitive, vec3 origin, vec3 position) {
     Frame frame = scene_frame();
     if (!SHADING_EMITTERS || frame.emissive_count == 0u || primitive == PRIMITIVE_NONE) return 0.0;
@@ -168,7 +171,7 @@ float light_pdf_emitter(uint primitive, vec3 origin, vec3 position) {
     return light_emissive_share(entry) * density * frame.kind_shares.y;
 }
 
-// 1/sr with which light_sample chooses the environment in `direction`.
+// Returns the density, 1/sr, with which light_sample chooses the environment in `direction`.
 float environment_pdf(vec3 direction) {
     Frame frame = scene_frame();
     if (frame.environment_sampled == 0u) return 0.0;

@@ -7,7 +7,7 @@
 
 #define MICROFACET_PI 3.14159265358979
 
-// Columns: tangent, bitangent, normal.
+// Returns a basis with the columns tangent, bitangent, normal.
 mat3 basis_around(vec3 normal) {
     float turn = normal.z >= 0.0 ? 1.0 : -1.0;
     float a = -1.0 / (turn + normal.z);
@@ -16,14 +16,15 @@ mat3 basis_around(vec3 normal) {
                 vec3(b, turn + normal.y * normal.y * a, -normal.y), normal);
 }
 
-// Density cosine / pi over the upper hemisphere.
+// Returns a direction with density cosine / pi over the upper hemisphere.
 vec3 cosine_hemisphere(vec2 random) {
     float radius = sqrt(random.x);
     float azimuth = 2.0 * MICROFACET_PI * random.y;
     return vec3(radius * cos(azimuth), radius * sin(azimuth), sqrt(max(0.0, 1.0 - random.x)));
 }
 
-// GGX distribution of facet normals, 1/sr. Written without 1 - z*z, which cancels for small alpha.
+// Returns the GGX distribution of facet normals, 1/sr. It is written without 1 - z*z, which cancels for small
+// alpha.
 float ggx_distribution(vec3 h, float alpha) {
     float slope = (h.x * h.x + h.y * h.y) / (alpha * alpha) + h.z * h.z;
     return 1.0 / (MICROFACET_PI * alpha * alpha * slope * slope);
@@ -33,12 +34,12 @@ float ggx_root(float cosine, float alpha) {
     return sqrt(alpha * alpha + (1.0 - alpha * alpha) * cosine * cosine);
 }
 
-// G(o, i) / (4 cos o cos i), cosines positive.
+// Returns G(o, i) / (4 cos o cos i) for positive cosines.
 float ggx_visibility(float cosine_o, float cosine_i, float alpha) {
     return 0.5 / (cosine_o * ggx_root(cosine_i, alpha) + cosine_i * ggx_root(cosine_o, alpha));
 }
 
-// G1(o) / (4 cos o).
+// Returns G1(o) / (4 cos o).
 float ggx_visibility_one(float cosine_o, float alpha) {
     return 0.5 / (cosine_o + ggx_root(cosine_o, alpha));
 }
@@ -62,7 +63,8 @@ float ggx_visibility_one(vec3 o, vec2 alpha) {
     return 0.5 / (abs(o.z) + ggx_root(o, alpha));
 }
 
-// A facet normal visible from o; density G1(o) D(h) max(0, o.h) / cos o. One alpha for each of x and y.
+// Returns a facet normal visible from o; density G1(o) D(h) max(0, o.h) / cos o. There is one alpha for each
+// of x and y.
 vec3 ggx_visible_normal(vec3 o, vec2 alpha, vec2 random) {
     vec3 stretched = normalize(vec3(alpha * o.xy, o.z));
     float azimuth = 2.0 * MICROFACET_PI * random.x;

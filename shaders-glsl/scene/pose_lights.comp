@@ -25,9 +25,9 @@ layout(push_constant, scalar) uniform PoseLightConstants {
 } pushed;
 
 #define POSE_PI 3.14159265
-// Least probability of a kind that is there.
+// Least probability of an existing kind.
 #define POSE_LEAST 0.1
-// Sums of three such powers are finite.
+// Largest power, so that sums of three are finite.
 #define POSE_MOST 1.0e38
 
 float pose_power(float power) {
@@ -52,13 +52,13 @@ void main() {
     }
     bvec3 present = bvec3(pushed.light_count > 0u, pushed.emissive != 0u, pushed.environment != 0u);
     vec3 power = vec3(punctual, pushed.emissive_power, pose_power(pushed.irradiance * disk)) * vec3(present);
-    // Scaled, so that their sum is finite.
+    // The powers are scaled, so that their sum is finite.
     power /= max(max(max(power.x, power.y), power.z), 1.0e-37);
     float total = power.x + power.y + power.z;
     vec3 shares = total > 0.0 ? power / total : vec3(1.0) / max(dot(vec3(present), vec3(1.0)), 1.0);
     vec3 weights = max(shares, POSE_LEAST) * vec3(present);
     shares = weights / max(weights.x + weights.y + weights.z, POSE_LEAST);
-    // The last kind takes what rounding left, so that no number falls behind all of them.
+    // The last kind takes the remainder of rounding, so that every random number chooses a kind.
     if (present.z) shares.z = 1.0 - (shares.x + shares.y);
     else if (present.y) shares.y = 1.0 - shares.x;
     else if (present.x) shares.x = 1.0;

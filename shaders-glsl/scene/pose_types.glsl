@@ -11,8 +11,8 @@ struct PoseGroup {
     uint first_vertex;          // of the draw; as many as a workgroup has threads, or what is left of the draw
 };
 
-// A draw that moves: where its vertices come from and go to. Words count from the start of the named table;
-// ATTRIBUTE_NONE means absent. Shared, 44 bytes.
+// Draw that moves: the source and the destination of its vertices. Words count from the start of the named
+// table; ATTRIBUTE_NONE means absent. Shared, 44 bytes.
 struct PoseDraw {
     uint draw;                  // index into the draw shadings
     uint first_vertex;          // global vertex index of its first vertex
@@ -54,7 +54,7 @@ struct PoseTarget {
     float weight;               // not 0
 };
 
-// Powers of a light that come before it and its own, by luminance. Shared, 8 bytes.
+// Sum of the powers of the lights before a light, and its own power, by luminance. Shared, 8 bytes.
 struct PoseLightPower {
     float near;                 // W, of point and spot lights
     float far;                  // W/m^2, of directional lights

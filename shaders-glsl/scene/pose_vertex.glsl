@@ -25,7 +25,7 @@ void pose_store(uint word, vec3 value) {
     pose_attributes[word + 2u] = value.z;
 }
 
-// A sum that keeps what rounding takes from it (Knuth's two-sum).
+// Sum that keeps the error of its rounding (Knuth's two-sum).
 struct PoseSum {
     vec3 value;
     vec3 lost;
@@ -39,7 +39,8 @@ void pose_add(inout PoseSum sum, vec3 term) {
     sum.lost += lost;
 }
 
-// The vector at rest with the displacements of the shown targets: `kind` 0 positions, 1 normals, 2 tangents.
+// Returns the vector at rest with the displacements of the shown targets: `kind` 0 positions, 1 normals, 2
+// tangents.
 vec3 pose_morphed(vec3 at_rest, uint first, uint count, uint kind, uint vertex) {
     PoseSum sum = PoseSum(at_rest, vec3(0.0));
     for (uint target = first; target < first + count; target++) {
@@ -53,7 +54,7 @@ vec3 pose_morphed(vec3 at_rest, uint first, uint count, uint kind, uint vertex) 
     return sum.value + sum.lost;
 }
 
-// The weighted sum of the joints of a vertex.
+// Returns the weighted sum of the joints of a vertex.
 PoseMatrix pose_blended(PoseDraw draw, uint vertex) {
     precise vec3 x = vec3(0.0);
     precise vec3 y = vec3(0.0);
@@ -82,14 +83,14 @@ float pose_largest(vec3 v) {
     return max(max(abs(v.x), abs(v.y)), abs(v.z));
 }
 
-// True if a number that is not negative divides: neither 0, nor so small that devices may take it for 0, nor infinite,
-// nor no number.
+// True if a number that is not negative can be a divisor: it is neither 0, nor so small that devices may take
+// it for 0, nor infinite, nor NaN.
 bool pose_divides(float x) {
     uint bits = floatBitsToUint(x);
     return bits >= 0x00800000u && bits < 0x7F800000u;
 }
 
-// The unit vector along another; zero where there is no direction.
+// Returns the unit vector along another; zero if there is no direction.
 vec3 pose_unit(vec3 vector) {
     float scale = pose_largest(vector);
     if (!pose_divides(scale)) return vec3(0.0);
@@ -97,8 +98,8 @@ vec3 pose_unit(vec3 vector) {
     return scaled / length(scaled);
 }
 
-// The map of normals that belongs to a map of positions: its cofactors, which for a mirrored map also flip normals back to
-// the side that the winding has.
+// Converts a map of positions to the map of normals that belongs to it: its cofactors, which for a mirrored
+// map also flip normals back to the side of the winding.
 void pose_cofactors(inout vec3 x, inout vec3 y, inout vec3 z) {
     float scale = max(pose_largest(x), max(pose_largest(y), pose_largest(z)));
     if (!pose_divides(scale)) {
@@ -116,10 +117,10 @@ void pose_cofactors(inout vec3 x, inout vec3 y, inout vec3 z) {
 }
 
 void pose_store_position(uint vertex, vec3 position) {
-    // Compared as bits, which finds what is no number on every device.
+    // The values are compared as bits, which finds NaN on every device.
     uvec3 magnitude = floatBitsToUint(position) & 0x7FFFFFFFu;
     if (max(max(magnitude.x, magnitude.y), magnitude.z) > floatBitsToUint(LARGEST_COORDINATE)) {
-        // No bounds hold it, so the check of a build counts its triangles.
+        // No bounds contain this position, so the check of a build counts its triangles.
         position = vec3(uintBitsToFloat(0x7F800000u));
     }
     pose_positions[3u * vertex] = position.x;

@@ -4,15 +4,15 @@
 #ifndef SCENE_POSED_TRIANGLE_GLSL
 #define SCENE_POSED_TRIANGLE_GLSL
 
-// gamma_7 of pbrt: bound of the relative error of a sum of three products and the weights' own error.
+// Bound gamma_7 of pbrt of the relative error of a sum of three products, with the weights' own error.
 #define POSITION_ERROR_FACTOR 4.1723269e-7
 
-// Weights of the three vertices from those of vertices 1 and 2.
+// Returns the weights of the three vertices from those of vertices 1 and 2.
 vec3 barycentric_weights(vec2 barycentrics) {
     return vec3(1.0 - barycentrics.x - barycentrics.y, barycentrics);
 }
 
-// A point of the triangle and a bound of its error along each axis, metres.
+// Returns a point of the triangle and a bound of its error along each axis, metres.
 vec3 triangle_point(vec3 weights, vec3 a, vec3 b, vec3 c, out float error) {
     vec3 from_a = weights.x * a;
     vec3 from_b = weights.y * b;
@@ -22,7 +22,7 @@ vec3 triangle_point(vec3 weights, vec3 a, vec3 b, vec3 c, out float error) {
     return from_a + from_b + from_c;
 }
 
-// Unit normal of the counter-clockwise side and twice the area, from two edges; zero where there is
+// Returns the unit normal of the counter-clockwise side and twice the area, from two edges; zero if there is
 // no area. Edges are scaled first: squares of very short or long ones leave the range of f32.
 vec3 triangle_normal(vec3 ab, vec3 ac, out float twice_area) {
     vec3 largest = max(abs(ab), abs(ac));

@@ -9,14 +9,15 @@
 #include "scene/constants.glsl"
 #include "scene/random_dimensions.glsl"
 
-// Mixed into the key of a group, so that groups share no key with the numbers of the other sampler.
+// Bits mixed into the key of a group, so that groups share no key with the numbers of the other sampler.
 #define RANDOM_GROUP_KEY 0x80000000u
 
-// The seed of the whole image and its SAMPLER_*; scene/accessors.glsl answers them from the frame.
+// Seed of the whole image and its SAMPLER_*, which scene/accessors.glsl reads from the frame.
 uint random_seed();
 uint random_sampler();
 
-// Owen's scrambling of a number whose bits are in reverse: each is flipped by a hash of those below it.
+// Scrambles a number whose bits are in reverse by Owen's method: each bit is flipped by a hash of the bits
+// below it.
 uint random_scramble_reversed(uint bits, uint seed) {
     bits ^= bits * 0x3d20adeau;
     bits += seed;
@@ -28,7 +29,8 @@ uint random_scramble_reversed(uint bits, uint seed) {
 
 // All Sobol dimensions of an index have their bits in reverse: bit k is worth 2^-(k + 1).
 
-// The second dimension of the index whose reverse is `first`: Pascal's triangle modulo 2, applied bit by bit.
+// Returns the second dimension of the index whose reverse is `first`: Pascal's triangle modulo 2, applied bit
+// by bit.
 uint random_sobol_second(uint first) {
     first ^= first << 16;
     first ^= (first & 0x00FF00FFu) << 8;
@@ -37,9 +39,9 @@ uint random_sobol_second(uint first) {
     return bitfieldReverse(first ^ ((first & 0x55555555u) << 1));
 }
 
-// In each field of 2 * s * block bits, a polynomial over GF(2), of which s is 2 and 3: divides it by
-// x^(s * block) + x^block + 1 and leaves the quotient above the remainder. The masks are the uppermost block of the fields,
-// their upper halves, and their lower halves without the lowest block.
+// Divides polynomials over GF(2), one in each field of 2 * s * block bits, where s is 2 or 3, by x^(s *
+// block) + x^block + 1, and leaves the quotient above the remainder. The masks are the uppermost block of the
+// fields, their upper halves, and their lower halves without the lowest block.
 uvec2 random_sobol_divide(uvec2 fields, uint block, uvec2 top, uvec2 upper, uvec2 lower) {
     fields ^= (fields & top) >> (uvec2(1u, 2u) * block);
     uvec2 quotient = (fields & upper) >> (uvec2(2u, 3u) * block);
@@ -63,7 +65,8 @@ uvec2 random_sobol_others(uint index) {
     return digits ^ ((digits >> 1) & uvec2(0x55555555u, 0x49249249u));
 }
 
-// The four numbers of a group of dimensions: Sobol points in an order of their own, each dimension scrambled.
+// Returns the four numbers of a group of dimensions: Sobol points in an order of their own, each dimension
+// scrambled.
 uvec4 random_group(uint pixel, uint sample_index, uint group) {
     uvec4 words = random_words(uvec4(pixel, RANDOM_GROUP_KEY, group, random_seed()));
     uint order = words.x ^ (words.z * 0x9e3779b9u);
@@ -76,12 +79,12 @@ uvec4 random_group(uint pixel, uint sample_index, uint group) {
                                  random_scramble_reversed(random_sobol_second(reversed), words.w)));
 }
 
-// A number of the sampler without groups.
+// Returns a number of the sampler without groups.
 float random_alone(uint pixel, uint sample_index, uint dimension) {
     return random_unit(random_words(uvec4(pixel, sample_index, dimension, random_seed())).x);
 }
 
-// Uniform in [0, 1), a multiple of 2^-24.
+// Returns a number uniform in [0, 1), a multiple of 2^-24.
 float random_float(uint pixel, uint sample_index, uint dimension) {
     if (random_sampler() == SAMPLER_SOBOL) {
         return random_unit(random_group(pixel, sample_index, dimension >> 2)[dimension & 3u]);
@@ -89,7 +92,7 @@ float random_float(uint pixel, uint sample_index, uint dimension) {
     return random_alone(pixel, sample_index, dimension);
 }
 
-// The last two numbers of a group, spread best over a square; `dimension` is the first of the two.
+// Returns the last two numbers of a group, spread best over a square; `dimension` is the first of the two.
 vec2 random_place(uint pixel, uint sample_index, uint dimension) {
     if (random_sampler() == SAMPLER_SOBOL) {
         uvec4 bits = random_group(pixel, sample_index, dimension >> 2);
@@ -98,12 +101,12 @@ vec2 random_place(uint pixel, uint sample_index, uint dimension) {
     return vec2(random_alone(pixel, sample_index, dimension), random_alone(pixel, sample_index, dimension + 1u));
 }
 
-// Dimension of one use at scattering `bounce`; `offset` is RANDOM_LIGHT_KIND to RANDOM_ROULETTE.
+// Returns the dimension of one use at scattering `bounce`; `offset` is RANDOM_LIGHT_KIND to RANDOM_ROULETTE.
 uint random_dimension(uint bounce, uint offset) {
     return RANDOM_BOUNCE_FIRST + bounce * RANDOM_BOUNCE_STRIDE + offset;
 }
 
-// The numbers of a group; `dimension` is its first, a multiple of 4.
+// Returns the numbers of a group; `dimension` is its first, a multiple of 4.
 vec4 random_vec4(uint pixel, uint sample_index, uint dimension) {
     if (random_sampler() == SAMPLER_SOBOL) {
         uvec4 bits = random_group(pixel, sample_index, dimension >> 2);
