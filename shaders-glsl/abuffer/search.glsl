@@ -80,7 +80,7 @@ bool abuffer_search(AbufferRef s, Ray ray, float origin_z, float direction_z, bo
         first = bucket_of(low, bounds.z_min, bounds.scale, ABUFFER_BUCKETS);
         last = bucket_of(high, bounds.z_min, bounds.scale, ABUFFER_BUCKETS);
     }
-    // NaN bounds must not lead beyond the lists of the cell.
+    // The limits keep NaN bounds from leading beyond the lists of the cell.
     first = min(first, ABUFFER_BUCKETS - 1u);
     last = clamp(last, first, ABUFFER_BUCKETS - 1u);
     bool backward = !away && ABUFFER_HAS_FAR_END;

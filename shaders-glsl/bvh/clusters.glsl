@@ -134,7 +134,7 @@ Cluster joined(Cluster a, Cluster b, uint first_record_of_b, float per_metre) {
     return Cluster(min(a.lower, b.lower), max(a.upper, b.upper), node);
 }
 
-// The one that is left at last. Its node has no parent yet.
+// Sets the root to the cluster that is left at last. Its node has no parent yet.
 void set_root(Cluster cluster) {
     BVH_HEADER(build.structure).root = cluster.reference;
 }

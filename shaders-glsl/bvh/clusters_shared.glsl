@@ -6,17 +6,17 @@
 
 #include "bvh/clusters.glsl"
 
-// Clusters of an invocation.
+// Number of clusters of an invocation.
 const uint SHARE = BVH_CLUSTERS / BVH_GROUP_SIZE;
 const uint MASKS = BVH_CLUSTERS / 32u;
 
-// The clusters that are left, the first record of each, and the place of its nearest.
+// Clusters that are left: their boxes, the first record of each, and the place of the nearest of each.
 shared vec3 lowers[BVH_CLUSTERS];
 shared vec3 uppers[BVH_CLUSTERS];
 shared uint references[BVH_CLUSTERS];
 shared uint records[BVH_CLUSTERS];
 shared uint nearest[BVH_CLUSTERS];
-// Bits of the second of every two that may merge, of rounds in turns.
+// Bits of the second of every two clusters that may merge; rounds alternate between two sets.
 shared uint seconds[2][MASKS];
 
 Cluster cluster_at(uint place) {
@@ -42,13 +42,13 @@ uint nearest_of(uint place, uint count, float per_metre) {
     return best;
 }
 
-// The place itself where the cluster may merge with none.
+// Returns the place of the cluster to merge with; the place itself if there is none.
 uint partner_of(uint place) {
     uint partner = nearest[place];
     return nearest[partner] == place ? partner : place;
 }
 
-// Seconds of pairs before a place.
+// Returns the number of seconds of pairs before a place.
 uint seconds_before(uint turn, uint place) {
     uint sum = 0u;
     for (uint word = 0u; word < MASKS; word++) {

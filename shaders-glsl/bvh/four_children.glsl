@@ -6,7 +6,7 @@
 
 #include "bvh/fours.glsl"
 
-// The node of four, and its children so far with their boxes, side by side.
+// Node of four that this invocation makes, and its children so far with their boxes, side by side.
 uint number;
 uint count = 0u;
 uvec4 children;

@@ -6,25 +6,28 @@
 
 #include "bvh/build.glsl"
 
-// Word of the scratch pool with the number that a node of two has as a node of four: that of the next node is larger by one
-// where it is one, else the same. One more word than nodes: the last has the number of nodes of four. They take the place of
-// the second buffer of keys; sizes and chains take that of the first.
+// Returns the word of the scratch pool with the number that a node of two has as a node of four: that of the
+// next node is larger by one if this node is one, else equal. There is one more word than nodes: the last
+// holds the number of nodes of four. The words take the place of the second buffer of keys; sizes and chains
+// take that of the first.
 uint number_word(uint node) {
     return bvh_keys(build.structure, 1u) + node;
 }
 
-// Word with what a node of two opens where it becomes a node of four: bit 0 and 1 its first and second child, bits 2 and 3
-// the children of the first, bits 4 and 5 those of the second. Two at most, and only below what is opened.
+// Returns the word with the children that a node of two opens if it becomes a node of four: bit 0 and 1 its
+// first and second child, bits 2 and 3 the children of the first, bits 4 and 5 those of the second. There are
+// two at most, and only below opened ones.
 uint openings_word(uint node) {
     return number_word(BVH_HEADER(build.structure).triangle_count + node);
 }
 
-// Word with the node of two that becomes the node of four of that number. The list takes the place of the counts of digits.
+// Returns the word with the node of two that becomes the node of four of that number. The list takes the
+// place of the counts of digits.
 uint list_word(uint number) {
     return bvh_counts(build.structure) + number;
 }
 
-// False where clusters became a leaf in place of a node of this number.
+// False if clusters became a leaf in place of a node of this number.
 bool is_node(BvhNode node) {
     return BVH_CLUSTER_LEAF == 1u || node.parent != BVH_HOLE;
 }

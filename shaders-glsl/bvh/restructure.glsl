@@ -9,7 +9,8 @@
 #include "bvh/area.glsl"
 #include "bvh/treelets.glsl"
 
-// The treelet's leaves, then what they are merged into. Two that are merged move to the first places that are left.
+// Leaves of the treelet, later replaced by the nodes into which they are merged. When two are merged, the
+// others move to the first places.
 vec3 lowers[2u * BVH_TREELET - 1u];
 vec3 uppers[2u * BVH_TREELET - 1u];
 uint references[2u * BVH_TREELET - 1u];
@@ -54,7 +55,7 @@ void restructure(uint root, float per_metre) {
                 largest = of_leaf;
             }
         }
-        // An area that is no number.
+        // No child was opened, because an area is not a number.
         if (opened == BVH_NONE) {
             break;
         }
@@ -84,7 +85,7 @@ void restructure(uint root, float per_metre) {
         exchange(second, begin + 1u);
         lowers[end] = min(lowers[begin], lowers[begin + 1u]);
         uppers[end] = max(uppers[begin], uppers[begin + 1u]);
-        // The last is the root.
+        // The last merged node is the root.
         references[end] = nodes[leaves - 2u - merged];
         after += merged + 2u < leaves ? smallest : 0.0;
     }

@@ -18,7 +18,8 @@ uint bvh_chunks(BvhRef s) {
     return (BVH_HEADER(s).triangle_count + BVH_SORT_CHUNK - 1u) / BVH_SORT_CHUNK;
 }
 
-// Counts by digit, then by chunk: their running sum is where each chunk's keys of a digit begin.
+// Returns the first word of the counts by digit, then by chunk: their running sum is the begin of each
+// chunk's keys of a digit.
 uint bvh_counts(BvhRef s) {
     return 4u * BVH_HEADER(s).triangle_count;
 }
@@ -27,7 +28,7 @@ uint bvh_sums(BvhRef s) {
     return bvh_counts(s) + BVH_DIGIT_VALUES * bvh_chunks(s);
 }
 
-// The first word of the unions, or of the clusters.
+// Returns the first word of the unions, or of the clusters.
 uint bvh_unions(BvhRef s) {
     return bvh_sums(s) + (BVH_DIGIT_VALUES * bvh_chunks(s) + SCAN_BLOCK - 1u) / SCAN_BLOCK;
 }

@@ -5,18 +5,18 @@
 
 #include "bvh/build.glsl"
 
-// The chunk of this workgroup, where one takes a chunk. Workgroups fill two dimensions.
+// Returns the chunk of this workgroup, if a workgroup takes a chunk. Workgroups fill two dimensions.
 uint sort_chunk() {
     return gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
 }
 
-// Digit of the key at a place of the buffer that this step moves keys from.
+// Returns the digit of the key at a place of the buffer from which this step moves keys.
 uint sort_digit(uint place) {
     uint code = bvh_scratch(build.structure, bvh_keys(build.structure, build.step & 1u) + 2u * place);
     return (code >> (BVH_DIGIT_BITS * build.step)) & (BVH_DIGIT_VALUES - 1u);
 }
 
-// Word with the number of a chunk's keys with that digit.
+// Returns the word with the number of a chunk's keys with that digit.
 uint sort_count_word(uint digit, uint chunk) {
     return bvh_counts(build.structure) + digit * bvh_chunks(build.structure) + chunk;
 }

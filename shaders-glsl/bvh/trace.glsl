@@ -15,11 +15,11 @@
 #include "bvh/accessors.glsl"
 #include "bvh/box.glsl"
 
-// A fresh ray.
+// State of a ray that has not begun.
 #define BVH_AT_START 0u
-// The subtree is to be entered; its box has been hit.
+// State of a ray whose subtree is to be entered; the subtree's box has been hit.
 #define BVH_AT_ENTRY 1u
-// The subtree is done.
+// State of a ray whose subtree is done.
 #define BVH_AT_EXIT 2u
 
 #define BVH_INFINITY uintBitsToFloat(0x7F800000u)
@@ -35,7 +35,7 @@
         children.j = second.y; \
     }
 
-// Leaves a child to be entered later.
+// Pushes a child to be entered later.
 #define BVH_PUSH(i) \
     if (keys.i != BVH_NO_KEY) { \
         stack_children[stack_size] = children.i; \
@@ -43,8 +43,8 @@
         stack_size += 1u; \
     }
 
-// Goes to the next subtree that waits on the stack and may hold a nearer hit; where none does, to the parent of the subtree
-// that all of them were in; where that was the tree, the ray is done.
+// Goes to the next subtree that waits on the stack and may hold a nearer hit; if there is none, to the parent
+// of the subtree that contained all of them; if that was the tree, the ray is done.
 #define BVH_NEXT \
     child = BVH_NONE; \
     while (child == BVH_NONE && stack_size > 0u) { \
@@ -65,10 +65,11 @@ uint bvh_trace(BvhRef s, Ray ray, inout TraceState state, bool any_hit) {
     }
     BvhRay slabs = bvh_ray(ray.origin, ray.direction, ray.t_min, BVH_HEADER(s).lower, BVH_HEADER(s).upper);
     Hit best = state.best;
-    // The subtree to enter, or where `left` is one of its children, the node to visit for those after that.
+    // The child is the subtree to enter or, if `left` is one of its children, the node to visit for the
+    // children after that.
     uint child = root;
     uint left = BVH_CHILDREN;
-    // Link of the subtree that `child` and all that waits on the stack are in.
+    // Link of the subtree that contains `child` and everything that waits on the stack.
     uint within = BVH_NONE;
     if (state.cursor[0] != BVH_AT_START) {
         within = state.cursor[1];
@@ -111,7 +112,7 @@ uint bvh_trace(BvhRef s, Ray ray, inout TraceState state, bool any_hit) {
                 BVH_NEXT
             } else {
                 if (stack_size + BVH_CHILDREN > BVH_STACK + 1u) {
-                    // Those that wait are found again once the child that is entered is done.
+                    // Waiting children are found again once the entered child is done.
                     within = BVH_CHILDREN * child + (keys.x & 3u);
                     stack_size = 0u;
                 } else {

@@ -8,16 +8,17 @@
 
 #include "bvh/build.glsl"
 
-// The class of nodes with fewer records than a treelet has leaves, which no chain has.
+// Class of nodes with fewer records than a treelet has leaves, which no chain has.
 #define NO_CLASS 0xFFFFFFFFu
 
-// Word of the scratch pool with the number of records below a node. Keys are not needed any more.
+// Returns the word of the scratch pool with the number of records below a node. It replaces keys, which are
+// not needed any more.
 uint size_word(uint node) {
     return node;
 }
 
-// Word of the list of the chains of a class, each by its lowest node. These are disjoint, so there are at most as many as
-// the least number of records of the class allows.
+// Returns the word of the list of the chains of a class, each by its lowest node. These nodes are disjoint,
+// so there are at most as many as the least number of records of the class allows.
 uint chains_word(uint size_class) {
     uint word = BVH_HEADER(build.structure).triangle_count;
     uint longest = word / BVH_TREELET;
@@ -28,7 +29,8 @@ uint chains_word(uint size_class) {
     return word;
 }
 
-// Word with the number of chains listed, by round and class. Counts of digits are not needed any more.
+// Returns the word with the number of chains listed, by round and class. It replaces counts of digits, which
+// are not needed any more.
 uint chain_count_word(uint round_and_class) {
     return bvh_counts(build.structure) + round_and_class;
 }
@@ -37,7 +39,7 @@ uint class_of(uint size) {
     return size < BVH_TREELET ? NO_CLASS : uint(findMSB(size / BVH_TREELET));
 }
 
-// The number of records below a child; a leaf holds one.
+// Returns the number of records below a child; a leaf holds one.
 uint size_of(uint reference) {
     return (reference & BVH_LEAF) != 0u ? 1u : bvh_scratch(build.structure, size_word(reference));
 }

@@ -5,17 +5,18 @@
 
 #include "bvh/build.glsl"
 
-// Number of boxes of the level above this many.
+// Returns the number of boxes of the level above one with this many.
 uint union_count(uint below) {
     return (below + BVH_UNION - 1u) / BVH_UNION;
 }
 
-// First word of level `level + 1`, given that of `level` and its number of boxes. Level 0 has no words.
+// Returns the first word of level `level + 1`, given that of `level` and its number of boxes. Level 0 has no
+// words.
 uint union_offset(uint level, uint offset, uint count) {
     return level == 0u ? bvh_unions(build.structure) : offset + 6u * count;
 }
 
-// Widens a box by one of a level.
+// Widens a box by a box of a level.
 void union_include(uint level, uint offset, uint place, inout vec3 lower, inout vec3 upper) {
     if (level == 0u) {
         bvh_include_record(place, lower, upper);
@@ -28,7 +29,8 @@ void union_include(uint level, uint offset, uint place, inout vec3 lower, inout 
     }
 }
 
-// The box of the records from `begin` to before `end`: at each level those that do not fill a union of the next.
+// Finds the box of the records from `begin` to before `end`: at each level it takes the boxes that do not
+// fill a union of the next.
 void union_of_run(uint begin, uint end, out vec3 lower, out vec3 upper) {
     lower = vec3(uintBitsToFloat(0x7F800000u));
     upper = -lower;

@@ -12,7 +12,7 @@
 #define RANDOM_CAMERA_X 2u
 #define RANDOM_CAMERA_Y 3u
 
-// Scattering k (0 is the first surface) owns the dimensions
+// First dimension of scatterings. Scattering k (0 is the first surface) owns the dimensions
 // RANDOM_BOUNCE_FIRST + k * RANDOM_BOUNCE_STRIDE + one of the offsets below.
 #define RANDOM_BOUNCE_FIRST 4u
 #define RANDOM_BOUNCE_STRIDE 12u
@@ -27,8 +27,9 @@
 #define RANDOM_BSDF_V 7u
 #define RANDOM_ROULETTE 8u
 
-// Choice number n of a path whether it goes straight on through a surface, counted over the whole path, draws
-// RANDOM_OPACITY_FIRST + n. Above every bounce block, and without an end of its own.
+// First dimension of the choices of a path to go straight on through a surface: choice number n, counted over
+// the whole path, draws RANDOM_OPACITY_FIRST + n. It is above every block of scatterings, and the choices
+// have no end.
 #define RANDOM_OPACITY_FIRST 65536u
 
 #endif

@@ -10,14 +10,15 @@ Ray ray_inactive() {
     return Ray(vec3(0.0), 0.0, vec3(0.0, 0.0, 1.0), -1.0, PRIMITIVE_NONE, 0u, 0.0, 0.0);
 }
 
-// The float next to x in the direction of `offset`. Tiny x stay, so that no subnormal is made.
+// Returns the float next to x in the direction of `offset`. Tiny x stay unchanged, so that no subnormal is
+// made.
 float spawn_outward(float x, float offset) {
     if (offset == 0.0 || abs(x) < 1.0e-30) return x;
     int away = (x > 0.0) == (offset > 0.0) ? 1 : -1;
     return intBitsToFloat(floatBitsToInt(x) + away);
 }
 
-// `position` moved along the normal, to the side `direction` points to, beyond its error.
+// Returns `position` moved along the normal, to the side that `direction` points to, beyond its error.
 vec3 spawn_position(vec3 position, float position_error, vec3 normal, vec3 direction) {
     float distance = position_error * (abs(normal.x) + abs(normal.y) + abs(normal.z));
     vec3 offset = normal * (dot(normal, direction) < 0.0 ? -distance : distance);
@@ -26,13 +27,14 @@ vec3 spawn_position(vec3 position, float position_error, vec3 normal, vec3 direc
                 spawn_outward(moved.z, offset.z));
 }
 
-// Unit `direction`, `t_max` in metres. The cone is zero: path.glsl sets it where textures need one.
+// Returns a ray along the unit `direction`; `t_max` in metres. The cone is zero: path.glsl sets it if
+// textures need one.
 Ray spawn_ray(Surface s, vec3 direction, float t_max) {
     vec3 origin = spawn_position(s.position, s.position_error, s.geometric_normal, direction);
     return Ray(origin, 0.0, direction, t_max, s.primitive, scene_frame().spawned_ray_flags, 0.0, 0.0);
 }
 
-// The open segment to `target`, for occlusion. `target` has been moved off its own surface.
+// Returns the open segment to `target`, for occlusion. `target` has been moved off its own surface.
 Ray spawn_segment(Surface s, vec3 target) {
     vec3 origin = spawn_position(s.position, s.position_error, s.geometric_normal, target - s.position);
     vec3 towards = target - origin;

@@ -12,8 +12,8 @@
 #include "ads/triangle.glsl"
 #include "scene/plane_surface.glsl"
 
-// The surface at a point of a triangle of the geometry that is bound, as seen from straight ahead of its front;
-// textures at their finest level. a, b and c are its corners where the scene is posed.
+// Returns the surface at a point of a triangle of the bound geometry, as seen from straight ahead of its
+// front; textures at their finest level. a, b and c are its corners where the scene is posed.
 Surface stored_source_at(uint primitive, vec2 barycentrics, vec3 a, vec3 b, vec3 c) {
     uint id = geometry_id(primitive);
     float twice_area;
@@ -23,7 +23,7 @@ Surface stored_source_at(uint primitive, vec2 barycentrics, vec3 a, vec3 b, vec3
     return scene_surface_at(ray, 1.0, id, geometry_triangle(primitive), a, b, c, barycentrics);
 }
 
-// The surface at a point of a geometry that is where the scene is posed.
+// Returns the surface at a point of a geometry that is where the scene is posed.
 Surface stored_source(uint primitive, vec2 barycentrics) {
     vec3 a;
     vec3 b;
@@ -32,15 +32,15 @@ Surface stored_source(uint primitive, vec2 barycentrics) {
     return stored_source_at(primitive, barycentrics, a, b, c);
 }
 
-// The least opacity that is stored of what does not emit.
+// Least opacity that is stored for a surface that does not emit.
 #define STORED_OPACITY (1.0 / 255.0)
 
-// The normal of a surface of a triangle, with what its draw says of its back.
+// Packs the normal of a surface of a triangle, with the flag of its draw for backs.
 uint stored_pack_front(Surface s) {
     return stored_pack_normal(s.normal, (back_face_draw_flags_of_id(s.primitive) & DRAW_SINGLE_SIDED) != 0u);
 }
 
-// Words by which the surface is looked up from its triangle.
+// Packs words by which the surface is looked up from its triangle.
 uvec2 stored_pack_triangle(Surface s) {
     return uvec2(packUnorm4x8(vec4(s.base_color, 0.0)), s.primitive);
 }
@@ -52,7 +52,8 @@ uvec2 stored_pack(Surface s) {
     return uvec2(packUnorm4x8(vec4(s.base_color, max(s.opacity, STORED_OPACITY))), stored_pack_front(s));
 }
 
-// Terms of reflection and transmission, in a further word: metallic, roughness, transmission, specular, 8 bits each.
+// Packs terms of reflection and transmission into a further word: metallic, roughness, transmission,
+// specular, 8 bits each.
 uint stored_pack_terms(Surface s) {
     return packUnorm4x8(vec4(s.metallic, s.roughness, s.transmission, s.specular));
 }
@@ -65,9 +66,9 @@ void stored_set_terms(inout Surface s, uint word) {
     s.specular = terms.w;
 }
 
-// The surface of a fragment that a ray hits at t, known within `position_error` metres, of which the normal
-// alone is stored: white, dull and opaque to light, no emission, the stored normal as geometric and shading
-// normal; the front where the ray comes against the normal.
+// Returns the surface of a fragment of which only the normal is stored, and which a ray hits at t, known
+// within `position_error` metres: white, dull and opaque to light, no emission, the stored normal as
+// geometric and shading normal; the front if the ray comes against the normal.
 Surface stored_shape(vec3 normal, Ray ray, float t, float position_error) {
     Surface s = surface_miss(ray);
     s.position = ray.origin + t * ray.direction;
@@ -82,7 +83,7 @@ Surface stored_shape(vec3 normal, Ray ray, float t, float position_error) {
     return s;
 }
 
-// The hit of a ray that hits a triangle at t; a miss where there is none of that number.
+// Returns the hit of a ray that hits a triangle at t; a miss if there is no triangle of that number.
 Hit stored_triangle_hit(uint primitive, Ray ray, float t) {
     if (primitive >= geometry_triangle_count()) {
         return Hit(ray.t_max, PRIMITIVE_NONE, 0.0, 0.0);
@@ -95,8 +96,8 @@ Hit stored_triangle_hit(uint primitive, Ray ray, float t) {
     return Hit(t, primitive, barycentrics.x, barycentrics.y);
 }
 
-// The surface at a hit on the plane of a triangle, or at a fragment that stands for it: then the point is the ray's and
-// known within `position_error` metres.
+// Returns the surface at a hit on the plane of a triangle, or at a fragment that stands for the triangle: the
+// point is then the ray's and known within `position_error` metres.
 Surface stored_triangle_surface(Ray ray, Hit hit, bool fragment, float position_error) {
     Surface s = surface_miss(ray);
     if (hit.primitive != PRIMITIVE_NONE) {
@@ -115,8 +116,8 @@ bool stored_triangle_emits(uint primitive) {
     return draw.first_emissive != EMISSIVE_NONE || (scene_material(draw.material).flags & MATERIAL_UNLIT) != 0u;
 }
 
-// The surface of a fragment that does not emit, with its colour and opacity and a normal of its front. Terms that these words
-// lack take their defaults.
+// Returns the surface of a fragment that does not emit, with its colour and opacity and a normal of its
+// front. Terms that these words lack take their defaults.
 Surface stored_surface_along(vec3 normal, uvec2 words, Ray ray, float t, float position_error) {
     Surface s = stored_shape(normal, ray, t, position_error);
     vec4 albedo = unpackUnorm4x8(words.x);
@@ -126,7 +127,7 @@ Surface stored_surface_along(vec3 normal, uvec2 words, Ray ray, float t, float p
     return s;
 }
 
-// The surface of such a fragment, with the normal of the words.
+// Returns the surface of such a fragment, with the normal of the words.
 Surface stored_surface(uvec2 words, Ray ray, float t, float position_error) {
     return stored_surface_along(stored_unpack_normal(words.y), words, ray, t, position_error);
 }

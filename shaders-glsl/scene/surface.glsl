@@ -33,7 +33,7 @@ Surface surface_miss(Ray ray) {
     return s;
 }
 
-// Area of the triangle's texture coordinates per square metre; 0 where either has no area.
+// Returns the area of the triangle's texture coordinates per square metre; 0 if either has no area.
 float surface_uv_area(DrawShading draw, uint uv_set, uvec3 triangle, float twice_area) {
     vec2 a = attribute_uv_at(draw, uv_set, triangle.x);
     vec2 ab = attribute_uv_at(draw, uv_set, triangle.y) - a;
@@ -49,7 +49,7 @@ vec4 surface_texel(TextureRef reference, DrawShading draw, uvec3 triangle, vec3 
     return texture_sample(reference, uv, texture_level(reference, area, footprint));
 }
 
-// Texels of all textures of a material; white where it has none.
+// Texels of all textures of a material; white for a texture that it does not have.
 struct SurfaceTexels {
     vec4 normal;
     vec4 base_color;
@@ -58,8 +58,9 @@ struct SurfaceTexels {
     vec4 transmission;
 };
 
-// They are sampled by the same code in a loop: five copies of it would be most of a kernel, and of the time that a driver
-// takes to compile it. Of an unlit material only the first two are asked for.
+// Samples all textures of a material, by one code in a loop: five copies of the code would be most of a
+// kernel, and of the time that a driver takes to compile it. For an unlit material only the first two are
+// sampled.
 SurfaceTexels surface_texels(Material material, DrawShading draw, uvec3 triangle, vec3 weights, float twice_area,
                              float footprint) {
     SurfaceTexels texels = SurfaceTexels(vec4(1.0), vec4(1.0), vec4(1.0), vec4(1.0), vec4(1.0));
@@ -81,8 +82,8 @@ SurfaceTexels surface_texels(Material material, DrawShading draw, uvec3 triangle
     return texels;
 }
 
-// Tangent along growing u (w: sign of the bitangent), from the vertices or else from the triangle's
-// texture coordinates. Zero where there is none.
+// Returns the tangent along growing u (w: sign of the bitangent), from the vertices or else from the
+// triangle's texture coordinates; zero if there is none.
 vec4 surface_tangent(DrawShading draw, uint uv_set, uvec3 triangle, vec3 weights, vec3 ab, vec3 ac) {
     vec4 tangent = attribute_tangent(draw, triangle, weights);
     if (dot(tangent.xyz, tangent.xyz) > 0.0) return tangent;
@@ -108,7 +109,8 @@ vec3 surface_mapped_normal(vec3 normal, vec4 tangent, vec3 texel, float scale) {
     return mapped_squared > 0.0 ? mapped * inversesqrt(mapped_squared) : normal;
 }
 
-// The shading normal on the side of the geometric normal. It may face away from the ray: bsdf_facet_normal does not.
+// Returns the shading normal on the side of the geometric normal. It may face away from the ray:
+// bsdf_facet_normal does not.
 vec3 surface_shading_normal(vec3 interpolated, vec3 geometric_normal) {
     float squared = dot(interpolated, interpolated);
     if (!(squared > 0.0)) return geometric_normal;
@@ -117,8 +119,8 @@ vec3 surface_shading_normal(vec3 interpolated, vec3 geometric_normal) {
     return normal;
 }
 
-// `triangle` are the vertices of the triangle with an id, a, b and c where they are posed, `barycentrics` the weights of
-// vertices 1 and 2. Fills every field.
+// Returns the surface with every field filled. `triangle` are the vertices of the triangle with an id, a, b
+// and c their posed positions, `barycentrics` the weights of vertices 1 and 2.
 Surface scene_surface_at(
     Ray ray, float t, uint id, uvec3 triangle, vec3 a, vec3 b, vec3 c, vec2 barycentrics) {
     Surface s = surface_miss(ray);
@@ -140,7 +142,8 @@ Surface scene_surface_at(
     s.geometric_normal = counter_clockwise ? normal : -normal;
     s.side = counter_clockwise == ((draw.flags & DRAW_MIRRORED) == 0u) ? 1u : 0u;
 
-    // The smaller axis of the cone's ellipse: along the larger one, the samples of a pixel are many.
+    // The footprint is the smaller axis of the cone's ellipse: along the larger one, the samples of a pixel
+    // are many.
     float footprint = ray.cone_width + ray.cone_spread * t * speed;
 
     SurfaceTexels texels = surface_texels(material, draw, triangle, weights, twice_area, footprint);
@@ -180,7 +183,7 @@ Surface scene_surface_at(
     return s;
 }
 
-// scene_surface_at for a triangle of the whole geometry, which is bound.
+// Returns scene_surface_at for a triangle of the whole geometry, which is bound.
 Surface scene_surface(Ray ray, float t, uint primitive, vec2 barycentrics) {
     uvec3 triangle = geometry_triangle(primitive);
     vec3 a, b, c;

@@ -8,12 +8,12 @@
 #include "ads/triangle.glsl"
 #include "scene/attributes.glsl"
 
-// True where light samples see the smooth shape.
+// True if light samples see the smooth shape.
 layout(constant_id = 96) const bool TERMINATOR_IS_SMOOTH = false;
 
-// The surface with its position moved out to the planes through the vertices across their normals, and the smooth normal in
-// place of the geometric one. The same surface where the triangle is flat or not known, where it transmits, and where the
-// smooth shape faces away from `o`.
+// Returns the surface with its position moved out to the planes through the vertices perpendicular to their
+// normals, and the smooth normal in place of the geometric one. The surface is unchanged if the triangle is
+// flat or not known, if it transmits, and if the smooth shape faces away from `o`.
 Surface terminator_surface(Surface s, vec3 o) {
     if (!TERMINATOR_IS_SMOOTH || s.primitive >= scene_frame().triangle_count || s.transmission > 0.0) return s;
     DrawShading draw = scene_draw_shading(scene_draw_of(s.primitive));

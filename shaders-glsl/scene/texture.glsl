@@ -10,8 +10,8 @@ float srgb_decode(float encoded) {
     return encoded <= 0.04045 ? encoded / 12.92 : pow((encoded + 0.055) / 1.055, 2.4);
 }
 
-// Brings a coordinate near [0, 1] (mirror: [0, 2)), so that integers are exact afterwards.
-// Anything that is not finite becomes 0.
+// Brings a coordinate near [0, 1] (mirror: [0, 2)), so that integers are exact afterwards. A coordinate that
+// is not finite becomes 0.
 float texture_reduce(float u, uint wrap) {
     if (!(abs(u) < 1.0e9)) return 0.0;
     if (wrap == WRAP_REPEAT) return u - floor(u);
@@ -19,7 +19,7 @@ float texture_reduce(float u, uint wrap) {
     return clamp(u, -0.5, 1.5);
 }
 
-// Texel index for x in [-size, 2 size].
+// Returns the texel index for x in [-size, 2 size].
 int texture_wrap(int x, int size, uint wrap) {
     if (wrap == WRAP_REPEAT) {
         if (x < 0) x += size;
@@ -40,8 +40,8 @@ vec4 texture_fetch(Texture source, uint first_texel, int width, ivec2 texel) {
     return value;
 }
 
-// One level; uv is reduced already. The texel at the place, or the four around it where the texture is filtered: either
-// fetches its first texel by the same code.
+// Samples one level; uv is reduced already. It reads the texel at the place, or the four around it if the
+// texture is filtered: both cases fetch their first texel by one code.
 vec4 texture_sample_level(Texture source, vec2 uv, uint level) {
     uint first_texel = source.first_texel;
     uvec2 size = uvec2(source.width, source.height);
@@ -68,8 +68,9 @@ vec4 texture_sample_level(Texture source, vec2 uv, uint level) {
     return mix(top, bottom, share.y);
 }
 
-// RGBA, colour decoded to linear where the texture holds sRGB. White where there is no texture. Both levels are sampled by
-// the same code in a loop: a kernel with this function in it at several places is compiled in a fraction of the time.
+// Returns RGBA, with colour decoded to linear if the texture holds sRGB; white if there is no texture. Both
+// levels are sampled by one code in a loop: a kernel with this function at several places is compiled in a
+// fraction of the time.
 vec4 texture_sample(TextureRef reference, vec2 uv, float level) {
     if (!SHADING_TEXTURES || reference.texture == TEXTURE_NONE) return vec4(1.0);
     Texture source = scene_texture(reference.texture);
@@ -89,8 +90,8 @@ vec4 texture_sample(TextureRef reference, vec2 uv, float level) {
     return value;
 }
 
-// Level for a footprint of `footprint` metres across on a surface whose texture coordinates (before
-// the transform) cover `uv_area` per square metre. 0 for a footprint of 0.
+// Returns the level for a footprint of `footprint` metres across on a surface whose texture coordinates
+// (before the transform) cover `uv_area` per square metre; 0 for a footprint of 0.
 float texture_level(TextureRef reference, float uv_area, float footprint) {
     if (!SHADING_TEXTURES || reference.texture == TEXTURE_NONE || !(footprint > 0.0)) return 0.0;
     Texture source = scene_texture(reference.texture);

@@ -6,19 +6,19 @@
 
 #include "scene/microfacet.glsl"
 
-// True where surfaces that let no light through have this lobe.
+// True if surfaces that let no light through have this lobe.
 layout(constant_id = 108) const bool SPECULAR_IS_WARD = false;
 
-// Distribution of half vectors, 1/sr.
+// Returns the distribution of half vectors, 1/sr.
 float ward_distribution(vec3 h, vec2 alpha) {
-    // Beyond, the Gaussian is 0.
+    // For lower half vectors the Gaussian is 0.
     if (!(h.z > 1.0e-4)) return 0.0;
     vec2 slope = h.xy / (alpha * h.z);
     float squared = h.z * h.z;
     return exp(-dot(slope, slope)) / (MICROFACET_PI * alpha.x * alpha.y * squared * squared);
 }
 
-// A half vector, with the density D(h) h.z.
+// Returns a half vector, with the density D(h) h.z.
 vec3 ward_half(vec2 alpha, vec2 random) {
     float radius = sqrt(-log(1.0 - random.y));
     float azimuth = 2.0 * MICROFACET_PI * random.x;

@@ -35,7 +35,7 @@ layout(set = SHADOW_MAPS_SET, binding = 2, scalar) SHADOW_MAPS_TEXEL_ACCESS buff
     uint shadow_maps_texels[];
 };
 
-// The place of a texel in the buffer; column and row are within the view.
+// Returns the place of a texel in the buffer; column and row are within the view.
 uint shadow_maps_texel(uint view, uvec2 place, uint resolution) {
     return (view * resolution + place.y) * resolution + place.x;
 }

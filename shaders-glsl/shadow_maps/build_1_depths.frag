@@ -13,7 +13,8 @@
 
 layout(location = 0) flat in uvec2 primitive_and_view;
 
-// Largest difference of the depth of a triangle's plane within a texel from that at its centre, in a parallel view.
+// Returns the largest difference of the depth of a triangle's plane within a texel from that at its centre,
+// in a parallel view.
 float parallel_extent(vec3 a, vec3 b, vec3 c, uint resolution) {
     vec3 normal = cross(b - a, c - a);
     return (abs(normal.x) + abs(normal.y)) / (abs(normal.z) * float(resolution));
@@ -45,7 +46,7 @@ void main() {
     float z;
     vec2 barycentrics;
     float error;
-    // A depth as near to the light as rounding is beyond the end of the rays.
+    // A triangle as near to the light as rounding is beyond the end of the rays.
     if (!triangle_intersect(origin, direction, a, b, c, z, barycentrics, error) || !(z > view.rounding)) {
         return;
     }

@@ -11,7 +11,7 @@
 
 layout(location = 0) flat out uvec2 primitive_and_view;
 
-// In a parallel view x and y are places on the map already.
+// Transforms a point to the screen. In a parallel view x and y are places on the map already.
 vec3 on_screen(ShadowMapsView view, vec3 p) {
     return vec3(p.xy, view.parallel != 0u ? 1.0 : p.z);
 }

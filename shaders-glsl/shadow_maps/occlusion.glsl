@@ -11,8 +11,8 @@
 #include "shadow_maps/accessors.glsl"
 #include "shadow_maps/view.glsl"
 
-// Depth at a texel's centre of the plane of the triangle that a ray starts on; that of its origin where no triangle is known,
-// or its plane is not met there.
+// Returns the depth at a texel's centre of the plane of the triangle that a ray starts on; that of the ray's
+// origin if no triangle is known, or if its plane is not met there.
 float receiver_depth(Ray ray, ShadowMapsView view, vec3 p, vec2 center) {
     // The triangles that are bound are the whole geometry, so that ids are their numbers.
     if (ray.exclude_primitive >= geometry_triangle_count()) {
@@ -34,7 +34,7 @@ float receiver_depth(Ray ray, ShadowMapsView view, vec3 p, vec2 center) {
     return is_met ? z : p.z;
 }
 
-// The first view of the point that is nearest to where a ray ends, of an emitting triangle.
+// Returns the first view of the point on an emitting triangle that is nearest to the end of a ray.
 uint nearest_point(Ray ray, uint emitter) {
     vec3 end = ray.origin + ray.t_max * ray.direction;
     uint first = shadow_maps_header.first_point + emitter * shadow_maps_header.point_count * SHADOW_MAPS_CUBE_VIEWS;
@@ -52,7 +52,7 @@ uint nearest_point(Ray ray, uint emitter) {
     return nearest;
 }
 
-// The light that a ray leads to: its views, none where it has no map.
+// Returns the views of the light that a ray leads to; none if the light has no map.
 ShadowMapsLight views_of(Ray ray) {
     uint light = (ray.flags >> RAY_LIGHT_SHIFT) - 1u;
     if (light < shadow_maps_header.light_count) {
@@ -65,7 +65,7 @@ ShadowMapsLight views_of(Ray ray) {
     return ShadowMapsLight(0u, 0u);
 }
 
-// True if maps answer a ray. `occluded` is the answer.
+// True if maps answer a ray. `occluded` receives the answer.
 bool is_answered(Ray ray, out bool occluded) {
     occluded = false;
     if ((ray.flags >> RAY_LIGHT_SHIFT) == 0u || !geometry_is_built(shadow_maps_header.status)) {

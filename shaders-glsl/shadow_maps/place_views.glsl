@@ -10,14 +10,14 @@
 #include "scene/types.glsl"
 #include "shadow_maps/accessors.glsl"
 
-// Metres that numbers relative to the origin of a view may be off by.
+// Returns a bound of the error of values relative to the origin of a view, metres.
 float rounding_from(vec3 origin) {
     vec3 lower = geometry_header.lower;
     vec3 upper = geometry_header.upper;
     return SHADOW_MAPS_ROUNDING * (length(upper - lower) + length(origin) + box_reach(lower, upper));
 }
 
-// Two axes across a unit direction.
+// Returns two axes perpendicular to a unit direction.
 void axes_across(vec3 forward, out vec3 right, out vec3 up) {
     vec3 aside = abs(forward.x) < 0.6 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0);
     right = normalize(cross(aside, forward));
@@ -41,7 +41,7 @@ ShadowMapsView view_of_cone(Light light) {
     return ShadowMapsView(light.position, right / tangent, up / tangent, forward, 0u, rounding_from(light.position), PRIMITIVE_NONE);
 }
 
-// As wide, high and deep as what lies within the bounds, and a little more.
+// Returns a view as wide, high and deep as the contents of the bounds, and a little more.
 ShadowMapsView view_from_afar(vec3 direction) {
     vec3 forward = normalize(direction);
     vec3 right;
@@ -59,15 +59,15 @@ ShadowMapsView view_from_afar(vec3 direction) {
     return ShadowMapsView(origin, right / half_sides.x, up / half_sides.y, forward, 1u, rounding, PRIMITIVE_NONE);
 }
 
-// The six views around a point of light.
+// Writes the six views around a point of light.
 void write_cube(uint first_view, vec3 origin, uint excluded) {
     for (uint face = 0u; face < SHADOW_MAPS_CUBE_VIEWS; face++) {
         shadow_maps_views[first_view + face] = view_of_face(origin, face, excluded);
     }
 }
 
-// Points of a triangle, evenly spread: Hammersley's set, moved half a step from the edges, on the map from the square to the
-// triangle that light samples use.
+// Returns one of the evenly spread points of a triangle: Hammersley's set, moved half a step from the edges,
+// on the map from the square to the triangle that light samples use.
 vec3 point_on(uint primitive, uint index, uint count) {
     vec2 place = vec2(float(index) / float(count), float(bitfieldReverse(index)) * 2.3283064e-10) + 0.5 / float(count);
     float root = sqrt(place.x);

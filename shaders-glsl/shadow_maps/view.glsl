@@ -5,7 +5,8 @@
 
 #include "shadow_maps/types.glsl"
 
-// A point in the space of a view. Corners that triangles share come out the same in each, so no gap opens between them.
+// Transforms a point into the space of a view. Corners that triangles share get equal values in each, so no
+// gap opens between them.
 vec3 shadow_maps_in_view(ShadowMapsView view, vec3 p) {
     precise vec3 q = p - view.origin;
     precise float x = (view.right.x * q.x + view.right.y * q.y) + view.right.z * q.z;
@@ -14,7 +15,7 @@ vec3 shadow_maps_in_view(ShadowMapsView view, vec3 p) {
     return vec3(x, y, z);
 }
 
-// Place on the map of a point in the space of a view, from -1 to 1. False where it is not on the map.
+// Finds the place on the map of a point in the space of a view, from -1 to 1. False if it is not on the map.
 bool shadow_maps_on_map(ShadowMapsView view, vec3 p, out vec2 place) {
     place = view.parallel != 0u ? p.xy : p.xy / p.z;
     return (view.parallel != 0u || p.z > 0.0) && all(lessThanEqual(abs(place), vec2(1.0)));

@@ -19,12 +19,12 @@ POOL_WORDS(voxel, nodes, 6)
 POOL_WORDS(voxel, octants, 7)
 #define VOXEL_POOL(s, pool) POOL_WORDS_OF(voxel, pool, VOXEL_HEADER(s))
 
-// The view along an axis, with the cells of the fragments.
+// Returns the view along an axis, with the cells of the fragments.
 AxisView voxel_view(VoxelRef s, uint axis) {
     return AxisView(VOXEL_HEADER(s).lower, VOXEL_HEADER(s).cell, VOXEL_HEADER(s).resolution, axis);
 }
 
-// The view along an axis, with one cell per column of voxels.
+// Returns the view along an axis, with one cell per column of voxels.
 AxisView voxel_column_view(VoxelRef s, uint axis) {
     return AxisView(VOXEL_HEADER(s).lower, VOXEL_HEADER(s).voxel, VOXEL_HEADER(s).grid, axis);
 }
@@ -34,7 +34,7 @@ uint voxel_count(VoxelRef s) {
     return grid * grid * grid;
 }
 
-// Running index of a voxel; 2^32 - 1 outside of the grid.
+// Returns the running index of a voxel; 2^32 - 1 outside the grid.
 uint voxel_index(VoxelRef s, ivec3 voxel) {
     uint grid = VOXEL_HEADER(s).grid;
     uvec3 v = uvec3(voxel);
@@ -52,24 +52,26 @@ void voxel_mark(VoxelRef s, uint index, uint bits) {
     }
 }
 
-// The bits of a voxel: those of the axes it is searched along, and VOXEL_OCCUPIED.
+// Returns the bits of a voxel: those of the axes along which it is searched, and VOXEL_OCCUPIED.
 uint voxel_bits(VoxelRef s, uint index) {
     return index < voxel_count(s) ? VOXEL_POOL(s, voxels)[index / 8u] >> (VOXEL_BITS * (index % 8u)) & 15u : 0u;
 }
 
-// Lets a triangle stand for a voxel, if its id is the lowest so far. Voxels begin with zeros: they hold complements.
+// Makes a triangle represent a voxel, if its id is the lowest so far. Voxels begin with zeros: they hold
+// complements.
 void voxel_hold_triangle(VoxelRef s, uint index, uint primitive) {
     if (index < voxel_count(s) && VOXEL_POOL(s, lists)[index] < ~primitive) {
         atomicMax(VOXEL_POOL(s, lists)[index], ~primitive);
     }
 }
 
-// The triangle that stands for an occupied voxel.
+// Returns the triangle that represents an occupied voxel.
 uint voxel_triangle(VoxelRef s, uint index) {
     return ~VOXEL_POOL(s, lists)[index];
 }
 
-// The size of what rays hit, metres: how far their points may lie from the surface.
+// Returns the size of the elements that rays hit, metres: the largest distance of their points from the
+// surface.
 float voxel_leaf_size(VoxelRef s) {
     return VOXEL_LEAVES == VOXEL_LEAVES_VOXELS ? VOXEL_HEADER(s).voxel : VOXEL_HEADER(s).cell;
 }
@@ -79,7 +81,8 @@ bool voxel_keeps(VoxelRef s, uint index, uint axis) {
     return VOXEL_AXES != VOXEL_AXES_VOXEL || (voxel_bits(s, index) >> axis & 1u) != 0u;
 }
 
-// Adds a triangle's unit normal to the sum of a voxel. Whole numbers: the order of additions does not matter.
+// Adds a triangle's unit normal to the sum of a voxel, in whole numbers, so that the order of additions does
+// not matter.
 void voxel_add_normal(VoxelRef s, uint index, vec3 normal) {
     if (index < voxel_count(s)) {
         ivec3 steps = ivec3(round(normal * VOXEL_NORMAL_STEPS));
@@ -91,7 +94,7 @@ void voxel_add_normal(VoxelRef s, uint index, vec3 normal) {
     }
 }
 
-// The axis of a voxel's averaged normal; ties go to the lowest axis.
+// Returns the axis of a voxel's averaged normal; ties go to the lowest axis.
 uint voxel_normal_axis(VoxelRef s, uint index) {
     uvec3 size;
     for (uint k = 0u; k < 3u; k++) {
@@ -105,38 +108,38 @@ uint voxel_list_count(VoxelRef s) {
     return AXIS_VIEWS * resolution * resolution;
 }
 
-// Contiguous fragments of a list, without links.
+// True if the fragments of a list are contiguous, without links.
 bool voxel_contiguous() {
     return VOXEL_STORAGE == VOXEL_STORAGE_CONTIGUOUS;
 }
 
-// Words of the scratch pool that the scan takes.
+// Returns the number of words of the scratch pool that the scan takes.
 uint voxel_scan_words(VoxelRef s) {
     return voxel_contiguous() ? (voxel_list_count(s) + SCAN_BLOCK - 1u) / SCAN_BLOCK : 0u;
 }
 
-// Fragments in pages that are linked.
+// True if fragments lie in pages that are linked.
 bool voxel_paged() {
     return VOXEL_STORAGE == VOXEL_STORAGE_PAGED;
 }
 
-// Places that the build has filled; with pages, may have filled.
+// Returns the number of places that the build has filled; with pages, may have filled.
 uint voxel_stored(VoxelRef s) {
     return min(VOXEL_HEADER(s).capacity, VOXEL_HEADER(s).demand) * (voxel_paged() ? VOXEL_PAGE : 1u);
 }
 
-// Words of a fragment: its depth, a word of payload, with attributes colour and normal, and the triangle kept
-// for diagnostics.
+// Returns the number of words of a fragment: its depth, a word of payload, with attributes colour and normal,
+// and the triangle kept for diagnostics.
 uint voxel_stride() {
     return (VOXEL_PAYLOAD == VOXEL_PAYLOAD_INDEX ? 2u : 4u) + VOXEL_IDS;
 }
 
-// Words of a page: the word that leads to the next one, and fragments.
+// Returns the number of words of a page: the word that leads to the next one, and fragments.
 uint voxel_page_stride() {
     return 1u + VOXEL_PAGE * voxel_stride();
 }
 
-// The first word of a fragment. A linked one has its link behind the others.
+// Returns the first word of a fragment. A linked fragment has its link after the others.
 uint voxel_first_word(uint place) {
     if (voxel_paged()) {
         return place / VOXEL_PAGE * voxel_page_stride() + 1u + place % VOXEL_PAGE * voxel_stride();
@@ -152,17 +155,17 @@ void voxel_set_word(VoxelRef s, uint place, uint word, uint value) {
     VOXEL_POOL(s, fragments)[voxel_first_word(place) + word] = value;
 }
 
-// Depth at the cell's centre, metres from the lower side of the cube.
+// Returns the depth at the cell's centre, metres from the lower side of the cube.
 float voxel_z(VoxelRef s, uint place) {
     return uintBitsToFloat(voxel_word(s, place, 0u));
 }
 
-// The triangle of a fragment; PRIMITIVE_UNKNOWN where it holds terms of a material instead.
+// Returns the triangle of a fragment; PRIMITIVE_UNKNOWN if it holds terms of a material instead.
 uint voxel_primitive(VoxelRef s, uint place) {
     return VOXEL_PAYLOAD == VOXEL_PAYLOAD_MATERIAL ? PRIMITIVE_UNKNOWN : voxel_word(s, place, 1u);
 }
 
-// True if of two fragments of one depth the left one comes first: by its triangle, or by what it carries.
+// True if of two fragments of one depth the left one comes first: by its triangle, or by its payload.
 bool voxel_comes_first(VoxelRef s, uint left, uint right) {
     uvec2 first = uvec2(voxel_word(s, left, 1u), voxel_word(s, right, 1u));
     if (VOXEL_PAYLOAD != VOXEL_PAYLOAD_MATERIAL || first.x != first.y) {
@@ -179,7 +182,7 @@ void voxel_swap_word(VoxelRef s, uint left, uint right, uint word) {
     voxel_set_word(s, right, word, of_left);
 }
 
-// Exchanges two fragments. No loop: a sort has no iterations to spare.
+// Exchanges two fragments, without a loop: a sort has no iterations to spare.
 void voxel_swap(VoxelRef s, uint left, uint right) {
     voxel_swap_word(s, left, right, 0u);
     voxel_swap_word(s, left, right, 1u);

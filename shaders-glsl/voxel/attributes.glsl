@@ -13,11 +13,12 @@
 #include "scene/stored_surface.glsl"
 #include "voxel/types.glsl"
 
-// Steps of the fourth component per unit of the index of refraction, and the last of them for an index.
+// Number of steps of the fourth component per unit of the index of refraction, and the last step for an
+// index.
 #define VOXEL_INDEX_STEPS 100.0
 #define VOXEL_INDEX_LAST 254.0
 
-// Words 1 to 3 of a fragment.
+// Packs words 1 to 3 of a fragment.
 uvec3 voxel_pack_attributes(uint primitive, vec2 barycentrics) {
     Surface s = stored_source(primitive, barycentrics);
     if (VOXEL_PAYLOAD == VOXEL_PAYLOAD_MIRROR) {
@@ -30,7 +31,8 @@ uvec3 voxel_pack_attributes(uint primitive, vec2 barycentrics) {
     return uvec3(stored_pack_terms(s), stored_pack(s));
 }
 
-// The triangle of a fragment that emits; PRIMITIVE_NONE of others. Hits on mirrors have their triangle.
+// Returns the triangle of a fragment that emits; PRIMITIVE_NONE for others. Hits on mirrors have their
+// triangle.
 uint voxel_emitter(Hit hit, uvec3 words) {
     if (VOXEL_PAYLOAD == VOXEL_PAYLOAD_MIRROR) {
         bool known = hit.primitive < geometry_triangle_count();
@@ -39,7 +41,8 @@ uint voxel_emitter(Hit hit, uvec3 words) {
     return stored_emits(words.yz) ? words.z : PRIMITIVE_NONE;
 }
 
-// The surface of a fragment with these words that does not emit and that a ray hits, known within `position_error` metres.
+// Returns the surface of a fragment with these words that does not emit and that a ray hits, known within
+// `position_error` metres.
 Surface voxel_attributes_surface(uvec3 words, Ray ray, Hit hit, float position_error) {
     if (VOXEL_PAYLOAD == VOXEL_PAYLOAD_MIRROR) {
         Surface s = stored_shape(stored_unpack_normal(words.z), ray, hit.t, position_error);

@@ -10,7 +10,8 @@
 #include "voxel/visit.glsl"
 #include "voxel/visit_voxels.glsl"
 
-// Behind the sums of the scan, where long lists are enqueued once all triangles have been visited.
+// Queue of large triangles, stored behind the sums of the scan; long lists use it after all triangles have
+// been visited.
 #define LargeRef VoxelRef
 #define LARGE_WORD(s, place) VOXEL_POOL(s, scratch)[voxel_scan_words(s) + place]
 #define LARGE_HEADER(s) VOXEL_HEADER(s)
@@ -19,13 +20,14 @@
 
 #define bin_built build.structure
 
-// Voxels are marked in the view that a triangle faces most, which is the first where it is kept in no other.
+// Returns the number of views. Voxels are marked in the view that a triangle faces most, which is the only
+// one if it is kept in no other.
 uint bin_view_count() {
     return VOXEL_AXES == VOXEL_AXES_TRIANGLE ? 1u : AXIS_VIEWS;
 }
 
-// A triangle in a view, and the first and last cell that may keep it; of the pass that marks voxels, the
-// first and last column of voxels.
+// Triangle in a view, with the first and last cell that may keep it; in the pass that marks voxels, the first
+// and last column of voxels.
 struct Bin {
     uint primitive;
     uint axis;
@@ -47,7 +49,7 @@ bool bin_begin(BinTriangle triangle, uint view, out Bin bin) {
     vec3 pa = axis_from_world(seen, triangle.a);
     vec3 pb = axis_from_world(seen, triangle.b);
     vec3 pc = axis_from_world(seen, triangle.c);
-    // Half a cell to its sides, and what the tests of overlap add for rounding.
+    // The margin is half a cell to its sides, and the slack of the tests of overlap for rounding.
     float beyond = VOXEL_COVERAGE == VOXEL_COVERAGE_CONSERVATIVE ? 0.5 + 1.0 / 32.0 : 0.0;
     bool kept = axis_cells(seen, pa, pb, pc, beyond, bin.lower, bin.upper);
     bin.large = kept && bin_is_large(bin.lower, bin.upper);

@@ -9,7 +9,7 @@
 
 layout(local_size_x = VOXEL_GROUP_SIZE) in;
 
-// Octants that hold something of all nodes before one.
+// Returns the number of octants that hold something in all nodes before one.
 uint before(uint node, uint count) {
     return node < count ? VOXEL_POOL(build.structure, octants)[node] : VOXEL_HEADER(build.structure).node_demand - 1u;
 }
@@ -26,7 +26,7 @@ void main() {
     }
     uint place = 0u;
     if (node != 0u) {
-        // Behind the siblings before it that hold something.
+        // The node stands behind the siblings before it that hold something.
         uint parent = (node - 1u) / 8u;
         place = before(parent, count) + 1u;
         for (uint sibling = 8u * parent + 1u; sibling < node; sibling++) {

@@ -28,7 +28,8 @@ void main() {
     }
     AxisView view = AxisView(VOXEL_HEADER(build.structure).lower, VOXEL_HEADER(build.structure).voxel,
         VOXEL_HEADER(build.structure).grid, axis);
-    // The centre of every column that it reaches into, with 1/32 of a column for the hardware's grid.
+    // The margin covers the centre of every column that the triangle reaches into, with 1/32 of a column for
+    // the hardware's grid.
     gl_Position = axis_proposal(view, axis_from_world(view, a), axis_from_world(view, b), axis_from_world(view, c), corner,
         0.5 + VOXEL_SLACK + 1.0 / 32.0);
 }

@@ -28,7 +28,7 @@ void main() {
     b = axis_from_world(view, b);
     c = axis_from_world(view, c);
     if (VOXEL_COVERAGE != VOXEL_COVERAGE_HARDWARE) {
-        // 1/32 for the hardware's grid, and half a cell to its sides.
+        // The margin is 1/32 for the hardware's grid, and half a cell to its sides.
         float beyond = VOXEL_COVERAGE == VOXEL_COVERAGE_CONSERVATIVE ? 0.5 : 0.0;
         gl_Position = axis_proposal(view, a, b, c, corner, beyond + 1.0 / 32.0);
     } else {

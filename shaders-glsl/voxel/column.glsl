@@ -7,8 +7,8 @@
 #include "ads/axis_views.glsl"
 #include "voxel/types.glsl"
 
-// True if all of the square with half side `half_side` around the origin lies beyond the edge p q, on the side away
-// from the triangle, which is wound by the sign of `area`.
+// True if the whole square with half side `half_side` around the origin lies beyond the edge p q, on the side
+// away from the triangle, which is wound by the sign of `area`.
 bool column_beyond(vec2 p, vec2 q, float half_side, float area) {
     vec2 span = q - p;
     float value = p.x * span.y - p.y * span.x;
@@ -17,8 +17,9 @@ bool column_beyond(vec2 p, vec2 q, float half_side, float area) {
     return area > 0.0 ? value < -slack : value > slack;
 }
 
-// The first and last voxel of a column that the triangle a, b, c (frame of the view) reaches into, or comes within
-// VOXEL_SLACK of; false where it does not reach into the column. The triangle faces the view more than the others.
+// Finds the first and last voxel of a column that the triangle a, b, c (in the frame of the view) reaches
+// into, or comes within VOXEL_SLACK of; false if it does not reach into the column. The triangle faces this
+// view more than the others.
 bool voxel_column_range(AxisView view, vec3 a, vec3 b, vec3 c, ivec2 column, out ivec2 range) {
     vec3 center = vec3(vec2(column) + 0.5, 0.0);
     a = a / view.cell - center;
@@ -36,7 +37,7 @@ bool voxel_column_range(AxisView view, vec3 a, vec3 b, vec3 c, ivec2 column, out
     vec3 normal = cross(ab, ac);
     float uncertain = 4.0e-6 * (abs(ab.x * ac.y) + abs(ab.y * ac.x) + abs(ab.y * ac.z) + abs(ab.z * ac.y)
         + abs(ab.z * ac.x) + abs(ab.x * ac.z));
-    // Where rounding may decide the winding or the plane, only the corners count.
+    // If rounding may decide the winding or the plane, only the corners count.
     if (abs(normal.z) > 64.0 * uncertain) {
         if (column_beyond(a.xy, b.xy, half_side, normal.z) || column_beyond(b.xy, c.xy, half_side, normal.z)
             || column_beyond(c.xy, a.xy, half_side, normal.z)) {
@@ -44,7 +45,8 @@ bool voxel_column_range(AxisView view, vec3 a, vec3 b, vec3 c, ivec2 column, out
         }
         vec2 slope = normal.xy / normal.z;
         float middle = a.z + dot(slope, a.xy);
-        // Twice the relative error of the slopes, for the distance from a corner that they are used over.
+        // The error is twice the relative error of the slopes, for the distance from a corner over which they
+        // are used.
         float reach = half_side * (abs(slope.x) + abs(slope.y))
             + 2.0 * uncertain / abs(normal.z) * (abs(a.x) + abs(a.y) + 1.0);
         lower.z = max(lower.z, middle - reach);

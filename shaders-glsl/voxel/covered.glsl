@@ -12,7 +12,7 @@
 #include "voxel/names.glsl"
 #include "ads/build_constants.glsl"
 
-// The corners of a triangle in the frame of a view.
+// Returns the corners of a triangle in the frame of a view.
 void voxel_view_vertices(AxisView view, uint primitive, out vec3 a, out vec3 b, out vec3 c) {
     geometry_vertices(primitive, a, b, c);
     a = axis_from_world(view, a);
@@ -20,7 +20,7 @@ void voxel_view_vertices(AxisView view, uint primitive, out vec3 a, out vec3 b, 
     c = axis_from_world(view, c);
 }
 
-// A triangle's unit normal in the frame of its corners.
+// Returns a triangle's unit normal in the frame of its corners.
 vec3 voxel_unit_normal(vec3 a, vec3 b, vec3 c) {
     vec3 normal = cross(b - a, c - a);
     // Scaled first, so that no square overflows or vanishes.
@@ -36,12 +36,12 @@ struct VoxelFound {
     vec2 barycentrics;
 };
 
-// The cell of a fragment invocation: the viewport has a border of one.
+// Returns the cell of a fragment invocation: the viewport has a border of one.
 ivec2 voxel_cell_at_fragment(vec4 frag_coord) {
     return ivec2(frag_coord.xy) - 1;
 }
 
-// False where the triangle has no fragment in the cell.
+// Finds the fragment of a triangle in a cell; false if it has none there.
 bool voxel_fragment(uint primitive, uint axis, ivec2 cell, out VoxelFound found) {
     AxisView view = voxel_view(build.structure, axis);
     vec3 a;
@@ -63,7 +63,7 @@ bool voxel_fragment(uint primitive, uint axis, ivec2 cell, out VoxelFound found)
             return false;
         }
     } else {
-        // Coverage by the rasterizer: the plane's depth, within those of the corners.
+        // With coverage by the rasterizer the depth is that of the plane, within those of the corners.
         vec3 center = axis_center(view, cell);
         precise vec3 ab = b - a;
         precise vec3 ac = c - a;
@@ -76,8 +76,8 @@ bool voxel_fragment(uint primitive, uint axis, ivec2 cell, out VoxelFound found)
         found.barycentrics = clamp(triangle_barycentrics(vec3(center.xy, found.z), a, b, c), 0.0, 1.0);
     }
     found.list = axis_cell_index(axis, cell, view.resolution);
-    // In voxels. Precise, like all that decides whether a fragment is kept: a pass that counts and one that stores must
-    // decide alike.
+    // The values are in voxels. They are precise, like everything that decides whether a fragment is kept: a
+    // pass that counts and one that stores must decide alike.
     float voxels_per_metre = VOXEL_HEADER(build.structure).voxels_per_metre;
     precise vec3 place = vec3(axis_center(view, cell).xy, found.z) * voxels_per_metre;
     ivec3 voxel = clamp(ivec3(floor(place)), ivec3(0), ivec3(VOXEL_HEADER(build.structure).grid) - 1);
@@ -88,7 +88,7 @@ bool voxel_fragment(uint primitive, uint axis, ivec2 cell, out VoxelFound found)
     return true;
 }
 
-// Marks the voxel that a fragment lies in, and adds the normal of its triangle.
+// Marks the voxel that contains a fragment, and adds the normal of its triangle.
 void voxel_fill(uint primitive, VoxelFound found) {
     vec3 a;
     vec3 b;

@@ -9,7 +9,7 @@
 #include "contract/trace_log.glsl"
 #include "voxel/search.glsl"
 
-// A point of the ray in a cell.
+// Point of the ray in a cell.
 struct VoxelPoint {
     float t;
     ivec2 cell;
@@ -22,7 +22,7 @@ VoxelPoint voxel_point(VoxelRef s, VoxelTraversal traversal, float t, ivec2 cell
     return VoxelPoint(t, cell, list, traversal.origin[traversal.axis] + t * traversal.direction[traversal.axis]);
 }
 
-// The first fragment of a sorted list that lies at a depth or beyond.
+// Returns the first fragment of a sorted list that lies at a depth or beyond.
 uint voxel_first_from(VoxelRef s, uvec2 list, float depth, inout TraceState state, inout uint work) {
     uint place = voxel_bisect(s, list, depth, state, work);
     for (uint k = 0u; k < VOXEL_BISECT_FROM && place < list.y; k++) {
@@ -34,7 +34,7 @@ uint voxel_first_from(VoxelRef s, uvec2 list, float depth, inout TraceState stat
     return place;
 }
 
-// The depths, the second not among them, at which fragments count for points of the traversal's voxel.
+// Returns the depths, excluding the second, at which fragments count for points of the traversal's voxel.
 vec2 voxel_counted_depths(VoxelRef s, VoxelTraversal traversal) {
     if (VOXEL_INSIDE == VOXEL_INSIDE_COLUMN) {
         return vec2(-3.0e38, 3.0e38);
@@ -43,7 +43,7 @@ vec2 voxel_counted_depths(VoxelRef s, VoxelTraversal traversal) {
     return vec2(slice, slice + 1.0) * VOXEL_HEADER(s).voxel;
 }
 
-// The part of a sorted list that counts.
+// Returns the part of a sorted list that counts.
 uvec2 voxel_counted(VoxelRef s, uvec2 list, vec2 depths, inout TraceState state, inout uint work) {
     if (VOXEL_INSIDE == VOXEL_INSIDE_COLUMN) {
         return list;
@@ -53,9 +53,9 @@ uvec2 voxel_counted(VoxelRef s, uvec2 list, vec2 depths, inout TraceState state,
     return list;
 }
 
-// Replaces the nearest fragment to a point by this one if it is nearer in depth; of equals the one before
-// the point is nearer, and on one side the one that comes first. A total order, so that the order of reading has no
-// influence.
+// Replaces the nearest fragment to a point by this one if it is nearer in depth. Of fragments at equal
+// distance the one before the point is nearer, and on one side the one that comes first. This is a total
+// order, so that the order of reading has no influence.
 void voxel_hold_nearer(VoxelRef s, float depth, uint place, float z, inout uint held, inout float held_z) {
     if (held == VOXEL_NO_PLACE) {
         held = place;
@@ -78,7 +78,8 @@ void voxel_hold_nearer(VoxelRef s, float depth, uint place, float z, inout uint 
     }
 }
 
-// The nearest fragment of sorted lists, of which only the last before the point and the first that is not are read.
+// Returns the nearest fragment of sorted lists, of which only the last before the point and the first at or
+// after it are read.
 uint voxel_nearest_sorted(VoxelRef s, uvec2 list, float depth, inout TraceState state, inout uint work) {
     uint held = VOXEL_NO_PLACE;
     float held_z = 0.0;
@@ -95,8 +96,8 @@ uint voxel_nearest_sorted(VoxelRef s, uvec2 list, float depth, inout TraceState 
     return held;
 }
 
-// Counts the fragments of a point's cell that lie before it, or finds the nearest one: traversal.odd,
-// traversal.held. True if the work budget ended first.
+// Counts the fragments of a point's cell that lie before it, or finds the nearest one, in traversal.odd or
+// traversal.held. Returns true if the work budget ended first.
 bool voxel_read_list(VoxelRef s, VoxelPoint point, bool nearest, inout VoxelTraversal traversal, inout TraceState state,
     inout uint work) {
     if (!traversal.in_list) {
@@ -140,7 +141,7 @@ bool voxel_read_list(VoxelRef s, VoxelPoint point, bool nearest, inout VoxelTrav
         } else if (counts && z < point.depth) {
             traversal.odd = !traversal.odd;
         }
-        // In order, those that follow lie no nearer and not before the point.
+        // In a sorted list, the following fragments are no nearer and not before the point.
         if (sorted && z >= point.depth) {
             break;
         }

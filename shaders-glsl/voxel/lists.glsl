@@ -14,7 +14,7 @@
 
 #include "voxel/list_pages.glsl"
 
-// No place.
+// Value for the absence of a place.
 #define VOXEL_NO_PLACE 0xFFFFFFFFu
 
 // Adds one to the length of a contiguous list.
@@ -34,14 +34,15 @@ uint voxel_allocate(VoxelRef s, uint list) {
     return place < capacity ? place : VOXEL_NO_PLACE;
 }
 
-// Links a place in front of its list, where fragments are linked.
+// Links a place in front of its list, if fragments are linked.
 void voxel_link(VoxelRef s, uint list, uint place) {
     if (!voxel_contiguous() && !voxel_paged()) {
         voxel_set_word(s, place, voxel_stride(), atomicExchange(VOXEL_POOL(s, lists)[list], place + 1u));
     }
 }
 
-// Begin and end of the fragments of a contiguous list. A list that leaves the pool is counted and is empty.
+// Returns begin and end of the fragments of a contiguous list. A list that leaves the pool is counted and is
+// empty.
 uvec2 voxel_list(VoxelRef s, uint list) {
     if (list >= voxel_list_count(s)) {
         return uvec2(0u);
@@ -55,7 +56,7 @@ uvec2 voxel_list(VoxelRef s, uint list) {
     return uvec2(begin, end);
 }
 
-// A list that is being read.
+// Cursor of a list that is being read.
 struct VoxelCursor {
     uint link;            // the next fragment; 0 at the end
     uint last;            // the one that ends the list, contiguous only
@@ -64,7 +65,7 @@ struct VoxelCursor {
     uint reach;           // and those until it moves on after that
 };
 
-// Goes on with a list at a link.
+// Resumes a list at a link.
 VoxelCursor voxel_list_resume(VoxelRef s, uint list, uint link) {
     return VoxelCursor(link, voxel_contiguous() ? voxel_list(s, list).y : 0u, link, 1u, 1u);
 }
@@ -92,8 +93,8 @@ void voxel_list_guard(VoxelRef s, inout VoxelCursor cursor) {
     }
 }
 
-// The place of the next fragment of a list that has not ended. A link past the end is counted, ends the list and gives
-// VOXEL_NO_PLACE.
+// Returns the place of the next fragment of a list that has not ended. A link past the end is counted, ends
+// the list and gives VOXEL_NO_PLACE.
 uint voxel_list_next(VoxelRef s, inout VoxelCursor cursor) {
     uint place = cursor.link - 1u;
     if (place >= voxel_stored(s)) {

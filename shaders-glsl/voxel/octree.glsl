@@ -13,17 +13,17 @@
 
 #include "voxel/accessors.glsl"
 
-// The lowest number of a level, which is as many as there are above it.
+// Returns the lowest number of a level, which is the number of nodes above the level.
 uint octree_first(uint level) {
     return ((1u << (3u * level)) - 1u) / 7u;
 }
 
-// Largest number of nodes of the upper levels.
+// Returns the largest number of nodes of the upper levels.
 uint octree_upper_count(VoxelRef s) {
     return octree_first(VOXEL_HEADER(s).levels - 1u);
 }
 
-// The bits of the voxels of a block, by its number in the last level.
+// Returns the bits of the voxels of a block, by its number in the last level.
 uint octree_block(VoxelRef s, uint number) {
     ivec3 block = ivec3(0);
     for (uint bit = 0u; bit + 1u < VOXEL_HEADER(s).levels; bit++) {
@@ -37,7 +37,7 @@ uint octree_block(VoxelRef s, uint number) {
     return word;
 }
 
-// A node's word; that of a node without octants where the pool ends before it, which is counted.
+// Returns a node's word; that of a node without octants if the pool ends before the node, which is counted.
 uint octree_node(VoxelRef s, uint place) {
     if (place >= min(VOXEL_HEADER(s).node_capacity, VOXEL_HEADER(s).node_demand)) {
         atomicAdd(VOXEL_HEADER(s).corrupted, 1u);
@@ -46,8 +46,8 @@ uint octree_node(VoxelRef s, uint place) {
     return VOXEL_POOL(s, nodes)[place];
 }
 
-// The bits of a voxel. `level`: where they are zero, the voxel lies in a block of 2^level voxels along a side that holds
-// nothing. `read`: nodes read.
+// Returns the bits of a voxel. If they are zero, the voxel lies in a block of 2^level voxels along a side
+// that holds nothing. `read` is the number of nodes read.
 uint octree_bits(VoxelRef s, ivec3 voxel, out uint level, out uint read) {
     uint place = 0u;
     read = 0u;

@@ -11,21 +11,22 @@
 #include "ads/stored_words.glsl"
 #include "voxel/inside.glsl"
 
-// The stage of the search; a paused ray keeps it in two bits.
-// The fragments before the point where the ray enters the voxel are counted.
+// Stage of the search, which a paused ray keeps in two bits: the fragments before the point where the ray
+// enters the voxel are counted.
 #define VOXEL_STAGE_ENTER 0u
-// Those before the far point of a step.
+// Stage of the search: the fragments before the far point of a step are counted.
 #define VOXEL_STAGE_STEP 1u
-// Those before the middle between two points of which one is inside; once all halvings are done, the fragment
-// nearest to the far point is searched.
+// Stage of the search: the fragments before the middle between two points, of which one is inside, are
+// counted; once all halvings are done, the fragment nearest to the far point is searched.
 #define VOXEL_STAGE_HALVE 2u
-// The fragment nearest to the near point is searched, since the cell of the far one is empty.
+// Stage of the search: the fragment nearest to the near point is searched, since the cell of the far point is
+// empty.
 #define VOXEL_STAGE_NEAR 3u
 
-// `halvings` once all are done.
+// Value of `halvings` once all are done.
 #define VOXEL_HALVED (1u << VOXEL_REFINEMENTS)
 
-// The part of the ray that a step crosses; one that is refined shrinks.
+// Part of the ray that a step crosses; a span that is refined shrinks.
 struct VoxelSpan {
     float t_before;
     float t_after;
@@ -38,7 +39,7 @@ ivec2 voxel_cell_at(VoxelRef s, VoxelTraversal traversal, float t) {
     return ivec2(clamp(floor(p.xy), vec2(0.0), vec2(float(VOXEL_HEADER(s).resolution) - 1.0)));
 }
 
-// The part of the ray that the traversal's step crosses, within a segment of it.
+// Returns the part of the ray that the traversal's step crosses, within a segment of it.
 VoxelSpan voxel_span(VoxelRef s, VoxelTraversal traversal, vec2 interval) {
     if (VOXEL_MARCH == VOXEL_MARCH_SAMPLES) {
         float length = interval.y - interval.x;
@@ -62,7 +63,7 @@ void voxel_halve(VoxelRef s, VoxelTraversal traversal, bool takes_far, inout Vox
     }
 }
 
-// The point whose cell the traversal's stage reads.
+// Returns the point whose cell the traversal's stage reads.
 VoxelPoint voxel_stage_point(VoxelRef s, VoxelTraversal traversal, vec2 interval, VoxelSpan span) {
     if (traversal.stage == VOXEL_STAGE_ENTER) {
         return voxel_point(s, traversal, interval.x, traversal.cells.cell.xy);
@@ -88,7 +89,8 @@ bool voxel_is_passed(VoxelRef s, Ray ray, uint primitive, uint place) {
     return back_face_is_passed_by_plane(ray, primitive);
 }
 
-// Lets the triangle of the traversal's nearest fragment become the best hit, in the middle of a span; true if it does.
+// Tests the triangle of the traversal's nearest fragment as the best hit, in the middle of a span; true if it
+// becomes the best hit.
 bool voxel_take(VoxelRef s, Ray ray, VoxelTraversal traversal, VoxelSpan span, float depth, inout TraceState state) {
     uint place = traversal.held;
     uint primitive = place == VOXEL_NO_PLACE ? PRIMITIVE_NONE : voxel_primitive(s, place);
@@ -120,7 +122,7 @@ bool voxel_next_step(VoxelRef s, vec2 interval, inout VoxelTraversal traversal, 
     traversal.step++;
     bool more = VOXEL_MARCH == VOXEL_MARCH_SAMPLES ? traversal.step < VOXEL_HEADER(s).samples
         : grid_next(traversal.cells);
-    // Only samples are counted by steps, and no more than a paused ray can keep.
+    // Only samples are counted by steps, and not beyond the range that a paused ray can keep.
     traversal.step = VOXEL_MARCH == VOXEL_MARCH_SAMPLES ? traversal.step : 0u;
     traversal.cell = traversal.cells.cell;
     traversal.stage = VOXEL_STAGE_STEP;
@@ -128,8 +130,8 @@ bool voxel_next_step(VoxelRef s, vec2 interval, inout VoxelTraversal traversal, 
     return more;
 }
 
-// Goes on from the list that the traversal's stage has read; false at the end of the voxel, or at the first
-// crossing that counts, which is the nearest.
+// Continues after the list that the traversal's stage has read; false at the end of the voxel, or at the
+// first crossing that counts, which is the nearest.
 bool voxel_next_stage(VoxelRef s, Ray ray, vec2 interval, float depth, bool any_hit, inout VoxelTraversal traversal,
     inout VoxelSpan span, inout TraceState state) {
     if (traversal.stage == VOXEL_STAGE_ENTER) {

@@ -23,7 +23,7 @@ void scan_set_number(VoxelRef s, uint step, uint i, uint number) {
     }
 }
 
-// The octree's sums are behind its numbers.
+// Returns a sum. The octree's sums are behind its numbers.
 uint scan_sum(VoxelRef s, uint step, uint block) {
     return step == VOXEL_SCAN_OCTANTS ? VOXEL_POOL(s, octants)[octree_upper_count(s) + block] : VOXEL_POOL(s, scratch)[block];
 }

@@ -24,9 +24,10 @@ float voxel_read(VoxelRef s, uint place, inout TraceState state, inout uint work
     return z;
 }
 
-// The first fragment of a sorted list that lies at a depth or beyond, except for the last few steps.
+// Returns the first fragment of a sorted list that lies at a depth or beyond, or a place a few steps before
+// it.
 uint voxel_bisect(VoxelRef s, uvec2 list, float depth, inout TraceState state, inout uint work) {
-    // Each step halves what is left.
+    // Each step halves the remaining part.
     for (uint k = 0u; k < 32u && list.y - list.x > VOXEL_BISECT_FROM; k++) {
         uint middle = list.x + (list.y - list.x) / 2u;
         float z = voxel_read(s, middle, state, work);
@@ -43,10 +44,11 @@ bool voxel_search_list(VoxelRef s, Ray ray, vec2 interval, inout VoxelTraversal 
     uint index = axis_cell_index(traversal.axis, traversal.cell.xy, resolution);
     VoxelCursor cursor = traversal.in_list ? voxel_list_resume(s, index, traversal.link) : voxel_list_begin(s, index);
     bool sorted = voxel_lists_sorted(s);
-    // Depths at the cell's centre that are searched. Where a triangle faces its view most, its plane rises
-    // by a maximum of one cell from the centre to a corner. A cell more finds triangles that the ray hits in the
-    // next cell, whose centre they may not cover. Where cells keep all that reaches into them, that cell has them itself,
-    // and slivers whose planes rounding may have turned are first in their lists and tested at all depths.
+    // The depths are those at the cell's centre to search. If a triangle faces its view most, its plane rises
+    // by at most one cell from the centre to a corner. One more cell finds triangles that the ray hits in the
+    // next cell, whose centre they may not cover. If cells keep everything that reaches into them, the next
+    // cell has these triangles itself, and slivers whose planes rounding may have turned are first in their
+    // lists and tested at all depths.
     float origin_z = traversal.origin[traversal.axis];
     float direction_z = traversal.direction[traversal.axis];
     float z_in = origin_z + interval.x * direction_z;
@@ -90,7 +92,8 @@ bool voxel_search_list(VoxelRef s, Ray ray, vec2 interval, inout VoxelTraversal 
             return false;
         }
         uint primitive = voxel_primitive(s, place);
-        // With conservative coverage the last two bits of a depth say how far the triangle's depths reach from it.
+        // With conservative coverage the last two bits of a depth hold the reach of the triangle's depths
+        // from it.
         float less = triangles ? width * reached_less(z) : 0.0;
         if ((z < low + less || z > high - less) && !anywhere) {
             trace_log(STEP_FRAGMENT, primitive, TEST_OUTSIDE_CELL, 0u, 0.0, z);

@@ -11,15 +11,15 @@
 #include "ads/build_constants.glsl"
 
 #define SORT_HEADER(s) VOXEL_HEADER(s)
-// Behind the sums of the scan.
+// Table of long lists, behind the sums of the scan.
 #define SORT_WORD(s, place) VOXEL_POOL(s, scratch)[voxel_scan_words(s) + (place)]
 #define SORT_LIMIT SHORT_LIST_LIMIT
 #define SORT_LONG_LIMIT LONG_LIST_LIMIT
 #define SORT_LINKED (!voxel_contiguous())
-// Links are places + 1. A fragment's link is behind its other words.
+// Links are places + 1. A fragment's link is after its other words.
 #define LINKED_DOUBLY false
 
-// The list that is sorted: the functions of the shared sort know elements by their number.
+// Structure of the list that is sorted, since the functions of the shared sort know elements by their number.
 VoxelRef sorted_structure;
 uint sorted_from;
 
@@ -53,7 +53,7 @@ void linked_set_next(VoxelRef s, uint link, uint next) { voxel_set_word(s, link 
 
 void linked_set_prev(VoxelRef s, uint link, uint prev) {}
 
-// True if the left fragment comes first: the one that was stored first, where words are equal.
+// True if the left fragment comes first; if words are equal, the one that was stored first.
 bool linked_comes_first(VoxelRef s, uint left, uint right) {
     return sort_places_before(s, left - 1u, right - 1u)
         || (left < right && !sort_places_before(s, right - 1u, left - 1u));

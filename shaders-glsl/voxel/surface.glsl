@@ -25,7 +25,7 @@ Surface voxel_surface_at(VoxelRef s, Ray ray, Hit hit) {
         }
         hit = stored_triangle_hit(emitter, ray, hit.t);
     }
-    // With parity, the point is known to within a cell; of voxels to within a voxel.
+    // With parity, the point is known to within a cell; with voxels as leaves, to within a voxel.
     bool is_near = stored || VOXEL_ACCEPT == VOXEL_ACCEPT_PARITY || VOXEL_LEAVES == VOXEL_LEAVES_VOXELS;
     return stored_triangle_surface(ray, hit, is_near, size);
 }

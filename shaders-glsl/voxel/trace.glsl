@@ -12,7 +12,8 @@
 #include "voxel/search.glsl"
 #include "voxel/parity.glsl"
 
-// Lets the march's voxel become the best hit, where the ray enters it. A ray that begins in a voxel does not enter it.
+// Makes the march's voxel the best hit, at the ray's entry into it. A ray that begins in a voxel does not
+// enter it.
 void voxel_take_voxel(VoxelRef s, Ray ray, float t, uint index, inout TraceState state) {
     if (!(t > ray.t_min)) {
         return;
@@ -31,8 +32,9 @@ void voxel_take_voxel(VoxelRef s, Ray ray, float t, uint index, inout TraceState
     }
 }
 
-// The bits of the traversal's voxel from the octree, and what it says of empty space around that of the march. Looking a
-// voxel up `again` after a pause is no work of the budget: a ray gets on in every round, however small that is.
+// Reads the bits of the traversal's voxel from the octree, and the size of the empty space around that of the
+// march. To look a voxel up `again` after a pause costs no work of the budget: a ray advances in every round,
+// however small the budget is.
 uint voxel_look_up(VoxelRef s, bool again, inout VoxelTraversal traversal, inout TraceState state, inout uint work) {
     uint level;
     uint read;
@@ -45,7 +47,7 @@ uint voxel_look_up(VoxelRef s, bool again, inout VoxelTraversal traversal, inout
     return bits;
 }
 
-// The ray without the fragments of the triangle that it leaves and of what it ends on.
+// Returns the ray without the fragments of the triangle that it leaves and of the surface that it ends on.
 Ray voxel_clear_ends(VoxelRef s, Ray ray) {
     float size = voxel_leaf_size(s);
     if (ray.t_max < 3.0e38) {

@@ -26,7 +26,7 @@
 #define VOXEL_CURSOR_IN_LIST 2, 1
 #define VOXEL_CURSOR_INSIDE 3, 1
 #define VOXEL_CURSOR_AXIS 4, 2
-// The axes along which the march has entered the voxel and the cell, plus one.
+// Axes along which the march has entered the voxel and the cell, plus one.
 #define VOXEL_CURSOR_VOXEL_ENTRY 6, 2
 #define VOXEL_CURSOR_CELL_ENTRY 13, 2
 // Offset of the voxel, or cell, being searched from that of the march.
@@ -34,7 +34,7 @@
 #define VOXEL_CURSOR_CELL_BESIDE 15, 5
 // Neighbours of a cell of a view; only the nine at its depth exist.
 #define VOXEL_CURSOR_CELL_NEIGHBOURS 20, 9
-// Parity only, where cells next to those that the ray crosses are left out.
+// Stage of the search by parity, which leaves out cells next to those that the ray crosses.
 #define VOXEL_CURSOR_STAGE 15, 2
 #define VOXEL_CURSOR_ODD 17, 1
 #define VOXEL_CURSOR_HALVINGS 18, 9
@@ -64,13 +64,13 @@ struct VoxelTraversal {
     uint held;            // the fragment nearest to the point, so far
 };
 
-// The lower corner of the cube. A function of its own because the shader compiler does not end where
-// `precise` values of several structures depend on memory that is reached by address.
+// Returns the lower corner of the cube. It is a function of its own because the shader compiler does not end
+// if `precise` values of several structures depend on memory that is reached by address.
 vec3 voxel_lower(VoxelRef s) {
     return VOXEL_HEADER(s).lower;
 }
 
-// Starts the traversal through the voxels; false where the ray does not cross them.
+// Starts the traversal through the voxels; false if the ray does not cross them.
 bool voxel_begin(VoxelRef s, Ray ray, out VoxelTraversal traversal) {
     vec3 lower = voxel_lower(s);
     precise vec3 origin = ray.origin - lower;
@@ -108,13 +108,13 @@ bool voxel_next(inout VoxelTraversal traversal) {
     return more;
 }
 
-// The ray's segment in the voxel, widened by the errors of its ends.
+// Returns the ray's segment in the voxel, widened by the errors of its ends.
 vec2 voxel_interval(VoxelTraversal traversal) {
     return vec2(traversal.voxels.t_in - traversal.voxels.error_in, traversal.voxels.t_out + traversal.voxels.t_error);
 }
 
-// Starts the traversal through the cells of its view over a segment of the ray; false where it crosses none. The third
-// axis is depth, along which everything is one cell.
+// Starts the traversal through the cells of its view over a segment of the ray; false if the ray crosses
+// none. The third axis is depth, along which everything is one cell.
 bool voxel_begin_cells(VoxelRef s, vec2 interval, inout VoxelTraversal traversal) {
     int resolution = int(VOXEL_HEADER(s).resolution);
     float scale = VOXEL_HEADER(s).cells_per_metre;
@@ -137,7 +137,7 @@ bool voxel_next_cell(inout VoxelTraversal traversal) {
     return more;
 }
 
-// Index of a cell among the 3x3x3 around another one, and back.
+// Returns the index of a cell among the 3x3x3 around another one; below, the inverse.
 uint voxel_neighbour(ivec3 cell, ivec3 center) {
     ivec3 offset = cell - center + 1;
     return uint(offset.x + 3 * offset.y + 9 * offset.z);
@@ -175,7 +175,7 @@ void voxel_save(VoxelTraversal traversal, inout TraceState state) {
     state.cursor[0] = flags;
 }
 
-// Moves a traversal through the voxels that has begun to where it paused.
+// Moves a traversal through the voxels that has begun to the place where it paused.
 void voxel_restore(TraceState state, inout VoxelTraversal traversal) {
     uint flags = state.cursor[0];
     grid_resume(traversal.voxels, grid_cell_of_bits(state.cursor[1]), uintBitsToFloat(state.cursor[2]),
@@ -189,7 +189,7 @@ void voxel_restore(TraceState state, inout VoxelTraversal traversal) {
     traversal.held = state.cursor[7];
 }
 
-// Moves a traversal through the cells of a view to where it paused.
+// Moves a traversal through the cells of a view to the place where it paused.
 void voxel_restore_cells(TraceState state, inout VoxelTraversal traversal) {
     uint flags = state.cursor[0];
     ivec3 cell = ivec3(bits_get(state.cursor[4], VOXEL_CURSOR_CELL_X), bits_get(state.cursor[4], VOXEL_CURSOR_CELL_Y), 0);

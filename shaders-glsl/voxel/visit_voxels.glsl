@@ -21,8 +21,9 @@ void voxel_visit_voxels(uint primitive, uint axis, ivec2 column) {
         || !voxel_column_range(view, a, b, c, column, range)) {
         return;
     }
-    // Where all views keep all, fragments decide a voxel's axis: compared with each of their normals, a triangle
-    // weighs one step of VOXEL_NORMAL_STEPS along the axis it faces most, which decides only without fragments.
+    // If all views keep all triangles, fragments decide a voxel's axis: compared with each of their normals,
+    // a triangle weighs one step of VOXEL_NORMAL_STEPS along the axis it faces most, which decides only
+    // without fragments.
     vec3 vote = vec3(0.0, 0.0, 1.0 / VOXEL_NORMAL_STEPS);
     vec3 normal = axis_to_world(VOXEL_AXES == VOXEL_AXES_ALL ? vote : voxel_unit_normal(a, b, c), axis);
     for (int depth = range.x; depth <= range.y; depth++) {
