@@ -124,7 +124,7 @@
 // Number of columns along a side of the blocks that an invocation for large triangles visits in turn, if a
 // structure can test whether a triangle reaches into a block.
 #define BIN_BLOCK 4
-// Threads of a workgroup for large triangles, and the maximum number of iterations of the loops of one thread.
+// Threads of a workgroup for large triangles, and the maximum number of iterations of the loops of a thread.
 #define BIN_GROUP_SIZE 64u
 #define BIN_TURNS 30000
 // Number of workgroups per row of the dispatch for large triangles.

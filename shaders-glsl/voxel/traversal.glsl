@@ -137,7 +137,7 @@ bool voxel_next_cell(inout VoxelTraversal traversal) {
     return more;
 }
 
-// Returns the index of a cell among the 3x3x3 around another one; below, the inverse.
+// These functions convert a cell among the 3x3x3 around another one to its index, and back.
 uint voxel_neighbour(ivec3 cell, ivec3 center) {
     ivec3 offset = cell - center + 1;
     return uint(offset.x + 3 * offset.y + 9 * offset.z);
