@@ -206,7 +206,7 @@ pub struct HardRecord {
     /// Number of the first rejected ray, for `--replay`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub first_rejected: Option<u64>,
-    /// Number of rays without a hit that a watertight test cannot miss.
+    /// Number of rays that a watertight test cannot miss but that got no hit.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub lost: Option<u64>,
 }
