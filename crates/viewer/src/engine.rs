@@ -72,7 +72,7 @@ pub struct Engine {
     /// Preview while something moves.
     preview: Option<Preview>,
     preview_size: PreviewSize,
-    /// Milliseconds since the last picture of the preview.
+    /// Time spent on the samples of the preview picture that is being made, milliseconds.
     preview_ms: f64,
     /// True if films hold samples of other settings.
     stale: bool,
