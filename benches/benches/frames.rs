@@ -111,7 +111,14 @@ fn main() -> Result<()> {
         let spec = Spec::new(system, "robust", given)?;
         let missing = device.lacks(&spec.requirements()?);
         if !missing.is_empty() {
-            println!("{system} is left out: the device lacks {}\n", missing.join(", "));
+            let missing = missing.join(", ");
+            if measured.is_empty() {
+                return Err(format!(
+                    "{system}, the baseline, cannot be measured: the device lacks {missing}"
+                )
+                .into());
+            }
+            println!("{system} is left out: the device lacks {missing}\n");
             continue;
         }
         let option = option.map(|words| words.join("="));

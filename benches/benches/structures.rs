@@ -26,7 +26,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         if missing.is_empty() {
             systems.push(config);
         } else {
-            println!("{} is left out: the device lacks {}", system.name, missing.join(", "));
+            let missing = missing.join(", ");
+            println!("{} {} is left out: the device lacks {missing}", system.name, preset.name());
         }
     }
     let contestants =

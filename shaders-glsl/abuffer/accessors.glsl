@@ -118,8 +118,8 @@ void abuffer_store_scale(AbufferRef s, uint cell) {
 }
 #endif
 
-// Number of sets of marks of triangles: one for triangles that have a fragment, and, if that decides the
-// contents of conservative lists, one for triangles that conservative lists keep.
+// Number of sets of marks of triangles: one set of the triangles that cells keep; with coverage edge-on, where marks
+// decide the contents of conservative lists, two: of triangles that have a fragment, and of those in such lists.
 uint abuffer_mark_sets() {
     return ABUFFER_COVERAGE == ABUFFER_COVERAGE_EDGE_ON ? 2u : 1u;
 }
@@ -129,7 +129,7 @@ uint abuffer_mark_words(AbufferRef s) {
     return (ABUFFER_HEADER(s).triangles + 31u) / 32u;
 }
 
-// Word of the first mark.
+// Returns the word that holds the first mark.
 uint abuffer_marks(AbufferRef s) {
     return abuffer_cell_count(s) * ABUFFER_BOUNDS_STRIDE;
 }

@@ -23,7 +23,7 @@
 #define ABUFFER_VIEWS_CUBE 1u
 #define ABUFFER_VIEWS_CAMERA 2u
 
-// Number of the camera's view, after the faces and SEGMENT_NEAR.
+// Number of the camera's view, after the faces and SEGMENT_NEAR; the same as VIEW_CAMERA of logged steps.
 #define ABUFFER_CAMERA 7u
 
 // Point at which a ray passes from one view to the next: at the sides of their pyramids, or from half a cell

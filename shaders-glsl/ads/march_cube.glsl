@@ -10,7 +10,8 @@
 #include "contract/constants.glsl"
 
 #define SEGMENT_NEAR VIEW_NEAR
-// Value in place of a face: the ray is tested against every triangle.
+// Value in place of a face: the ray is tested against every triangle. Cursors keep faces in three bits, so this is
+// smaller than VIEW_ALL, which is logged for it.
 #define SEGMENT_ALL 7u
 // Largest number of segments: six planes, two sides of the near region, and the end.
 #define SEGMENT_LIMIT 10u

@@ -51,7 +51,7 @@ void trace_log_end() {
 void trace_log_count(uint kind, uint a) {
     bool reads = kind == STEP_ENTRY || kind == STEP_OCCUPIED;
     // A segment may end and the next one begin in the same view.
-    if (kind == STEP_VIEW && a != VIEW_NEAR) {
+    if (kind == STEP_VIEW && a != VIEW_NEAR && a != VIEW_ALL) {
         trace_log_views += trace_log_view != a + 1u ? 1u : 0u;
         trace_log_view = a + 1u;
     }

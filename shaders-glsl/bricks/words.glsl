@@ -3,7 +3,9 @@
 // A cell is (column, row, slice) of a view. A brick has a mask of 64 bits, one per cell that lists something,
 // in two words, and a word of its own: for a brick that lists something the number of its first list, for an empty
 // one of a view the number of further bricks that are empty too, towards each of eight octants. Where cells may be
-// divided, a brick also has a mask of those that are, the number of the first of their bricks, and its own position.
+// divided, a brick also has a mask of those that are, the number of the first of their bricks, and two words: the brick's
+// position where it is below the first level; for an empty brick of a view, the first of them says how far its layer
+// is empty.
 // The list or the brick of a cell is found by counting the bits below its own.
 #ifndef BRICKS_WORDS_GLSL
 #define BRICKS_WORDS_GLSL
@@ -120,7 +122,7 @@ uvec2 bricks_column_bits(uvec2 column, uint first, uint last) {
     return bits;
 }
 
-// Takes a cell out of a mask; false if none is left.
+// Takes the lowest cell out of a mask; false if the mask was empty.
 bool bricks_take_cell(inout uvec2 mask, out uint word, out uint bit) {
     word = mask.x != 0u ? 0u : 1u;
     bit = uint(findLSB(mask[word]));

@@ -3,8 +3,12 @@
 use rasray_ads::kit::{Pyramid, Scan, Scratch, ViewDraw};
 use rasray_ads::{AdsError, ListCounts, Sizes};
 use rasray_shaders_glsl::constants::abuffer::{ABUFFER_BOX_WORDS, ABUFFER_BOXES, ABUFFER_CAMERA};
+use rasray_shaders_glsl::constants::contract::VIEW_CAMERA;
 
 use crate::{Accept, Bounds, Builder, Config, Coverage, March, Payload, Pool, Storage, Views};
+
+// Logged steps name a view by its number here.
+const _: () = assert!(ABUFFER_CAMERA == VIEW_CAMERA);
 
 /// Returns the number of cells of all views, each view with a border of one cell.
 pub fn cell_count(config: &Config) -> u64 {

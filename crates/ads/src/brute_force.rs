@@ -93,8 +93,8 @@ impl Structure for BruteForce {
         &self.sizes
     }
 
-    fn resize(&mut self, _device: &Device, _sizes: &Sizes) -> Result<(), AdsError> {
-        Ok(())
+    fn resize(&mut self, _device: &Device, sizes: &Sizes) -> Result<(), AdsError> {
+        self.sizes.check_pools(self.description.name, sizes)
     }
 
     fn set_geometry(&mut self, _device: &Device, geometry: &Geometry) -> Result<(), AdsError> {

@@ -114,9 +114,10 @@ impl Structure for Combined {
     }
 
     fn resize(&mut self, device: &Device, sizes: &Sizes) -> Result<(), AdsError> {
+        self.sizes.check_pools(self.description.name, sizes)?;
         let mut rest = &sizes.pools[..];
         for part in &mut self.parts {
-            let (pools, others) = rest.split_at(part.sizes().pools.len().min(rest.len()));
+            let (pools, others) = rest.split_at(part.sizes().pools.len());
             rest = others;
             part.resize(device, &Sizes { pools: pools.to_vec() })?;
         }

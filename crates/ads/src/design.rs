@@ -95,9 +95,9 @@ pub trait Design: fmt::Debug + Sized + Send + Sync {
     type Config: Configured + fmt::Debug + Copy + Send + Sync;
     /// Header that shaders start from. Its first word is the status, bits `STATUS_*`, which the last pass of
     /// a build writes.
-    type Header: Pod + Send + Sync;
+    type Header: Pod + Send;
     /// Demand of builds.
-    type Demand: Demand + Send + Sync;
+    type Demand: Demand;
     /// Pools of the structure.
     type Pool: PoolName<Header = Self::Header>;
     /// Copy of the pools on the host, for checks.

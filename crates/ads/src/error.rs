@@ -53,6 +53,16 @@ pub enum AdsError {
         /// Number of elements needed.
         elements: u64,
     },
+    /// Sizes name other pools than the structure has.
+    #[error(
+        "{structure}: the sizes are not those of its pools ({pools}): change the sizes that the structure returns"
+    )]
+    OtherPools {
+        /// Name of the structure.
+        structure: &'static str,
+        /// Names of the structure's pools, with commas between them.
+        pools: String,
+    },
     /// A shader module is not compiled in.
     #[error(
         "{structure}: the shader module `{module}` is not compiled in; modules that read a scene need the cargo feature \

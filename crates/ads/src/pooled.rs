@@ -204,6 +204,7 @@ impl<D: Design> Structure for Pooled<D> {
         if sizes == self.sizes() {
             return Ok(());
         }
+        self.sizes().check_pools(D::NAME, sizes)?;
         D::accepts(&self.parts.config, sizes)?;
         self.parts.pools.resize(device, sizes)?;
         self.design.forget();

@@ -68,6 +68,18 @@ impl Sizes {
         self.pools.iter().any(|pool| pool.elements > other.elements(pool.name))
     }
 
+    /// Refuses sizes of other pools than these, which are those of `structure`.
+    pub(crate) fn check_pools(&self, structure: &'static str, sizes: &Self) -> Result<(), AdsError> {
+        let kinds = |sizes: &Self| -> Vec<_> {
+            sizes.pools.iter().map(|pool| (pool.name, pool.element_bytes)).collect()
+        };
+        if kinds(self) == kinds(sizes) {
+            return Ok(());
+        }
+        let names: Vec<&str> = self.pools.iter().map(|pool| pool.name).collect();
+        Err(AdsError::OtherPools { structure, pools: names.join(", ") })
+    }
+
     /// Returns the number of elements of a pool.
     pub fn elements_of(&self, pool: impl PoolName) -> u64 {
         self.elements(pool.name())

@@ -169,9 +169,9 @@ impl TraceStep {
         (self.kind() == StepKind::Cell).then(|| (self.a, self.b.cast_signed(), self.c.cast_signed()))
     }
 
-    /// Returns true if the ray enters the near region, which is not a view.
-    pub fn is_near_region(&self) -> bool {
-        self.kind() == StepKind::View && self.a == numbers::VIEW_NEAR
+    /// Returns true if the ray enters a view. The near region, and all triangles tested one by one, are none.
+    pub fn is_view(&self) -> bool {
+        self.kind() == StepKind::View && ![numbers::VIEW_NEAR, numbers::VIEW_ALL].contains(&self.a)
     }
 
     /// Returns the primitive of a test, a fragment, a best hit or an answer, if it is known.

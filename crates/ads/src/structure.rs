@@ -76,7 +76,8 @@ pub trait Structure: Send + Sync {
     /// [`rasray_gpu::Recorded`].
     ///
     /// # Errors
-    /// Out of memory, or a pool exceeds what one binding can hold.
+    /// The sizes name other pools ([`AdsError::OtherPools`]), a pool exceeds what one binding can hold, or out
+    /// of memory.
     fn resize(&mut self, device: &Device, sizes: &Sizes) -> Result<(), AdsError>;
 
     /// Replaces the triangles; the next build reads the new ones. Until that build is complete traces answer

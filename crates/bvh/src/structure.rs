@@ -79,8 +79,7 @@ fn refitted(triangles: u32) -> Prepared {
 /// Returns true if the capacity suffices for the whole tree. There is no partial tree: a build that does not
 /// fit builds nothing.
 fn has_capacity(config: &Config, sizes: &Sizes, extent: &GeometryExtent) -> bool {
-    plan(config, extent.triangle_count.into())
-        .is_ok_and(|wanted| wanted.pools.iter().all(|pool| sizes.elements(pool.name) >= pool.elements))
+    plan(config, extent.triangle_count.into()).is_ok_and(|wanted| !wanted.exceed(sizes))
 }
 
 /// Returns the header that the next build starts from.

@@ -330,11 +330,7 @@ impl FrameRenderer {
         check_faults(&film.faults)?;
         self.film_is_right &= ended.outcome == FrameOutcome::Complete && unanswered + unended == 0;
         if !self.film_is_right {
-            let pool = match ended.outcome {
-                FrameOutcome::Complete => None,
-                FrameOutcome::Incomplete { pool } => pool,
-            };
-            return Ok(FrameResult::Nothing { pool });
+            return Ok(FrameResult::Nothing { pool: ended.outcome.pool() });
         }
         let rasray_tracer::EndedFrame { number, built, passes, .. } = ended;
         Ok(FrameResult::Picture(Picture {

@@ -226,10 +226,10 @@ fn a_surface_does_not_shade_itself() {
     expect_silence(&device);
 }
 
-/// Checks that a convex surface of triangles smaller than texels shades at most 0.2 % of its own lit points,
-/// from outside and from within, whatever its curvature.
+/// Checks that maps shade at most 0.2 % of the lit points of a ball, whose triangles are smaller and larger than
+/// texels, by lights outside and within.
 #[test]
-fn a_curved_surface_does_not_shade_itself() {
+fn a_ball_shades_at_most_one_in_500_of_its_lit_points() {
     let (device, _turn) = device();
     let corner = |column: usize, row: usize| {
         let (u, v) = (TAU * column as f64 / 96.0, PI * row as f64 / 48.0);

@@ -33,14 +33,22 @@ pub enum FrameOutcome {
     /// structure has grown if that helps, and the next frame records a new build.
     Incomplete {
         /// The pool, among those of all parts, that lacked most elements, with its capacity before it grew.
-        /// Absent if no counted pool lacked elements: either an earlier frame enlarged the pools after the
-        /// build was recorded, or the build lacked elements of a pool that is not counted because its size
-        /// follows from the number of triangles.
+        /// Absent if no counted pool lacked elements: an earlier frame enlarged the pools after the build was
+        /// recorded, or the build lacked elements of a pool that is not counted because its size follows
+        /// from the number of triangles. Absent too if the outcome of the build could not be read.
         pool: Option<PoolStatus>,
     },
 }
 
 impl FrameOutcome {
+    /// Returns the pool that lacked most elements, if the build was incomplete and one is known.
+    pub fn pool(self) -> Option<PoolStatus> {
+        match self {
+            Self::Complete => None,
+            Self::Incomplete { pool } => pool,
+        }
+    }
+
     /// Returns the outcome of two parts taken together.
     fn and(self, other: Self) -> Self {
         match (self, other) {

@@ -110,7 +110,7 @@ impl Replay {
         for step in &self.steps {
             match step.kind() {
                 StepKind::Round if step.a == 0 => view = None,
-                StepKind::View if !step.is_near_region() => {
+                StepKind::View if step.is_view() => {
                     views += u32::from(view != Some(step.a));
                     view = Some(step.a);
                 }

@@ -8,7 +8,9 @@ mod queues;
 mod unbuilt;
 
 use rasray_ads::kit::Pools;
-use rasray_ads::{Addressing, Check, Domain, Hit, Ray, RayQueue, Sizes, Trace, TraceMode};
+use rasray_ads::{
+    Addressing, AdsError, Check, Domain, Hit, PoolSize, Ray, RayQueue, Sizes, Trace, TraceMode,
+};
 use rasray_bvh::{Header, Pool};
 use rasray_gpu::{BufferDesc, BufferUsage, GpuError, MemoryLocation, Timing};
 use rasray_tests::harness::Bench;
@@ -45,6 +47,32 @@ fn larger(mut sizes: Sizes) -> Sizes {
         pool.elements += 256;
     }
     sizes
+}
+
+/// A structure takes sizes of its own pools only, and keeps those that it has.
+#[test]
+fn sizes_of_other_pools_are_refused() {
+    let bench = Bench::new();
+    let device = bench.device();
+    let geometry = bench.geometry(&closed_box([-1.0; 3], [1.0; 3]));
+    for subject in Subject::all() {
+        let mut structure = subject.spec.create(device, &geometry, None).expect("it can be made");
+        let sizes = structure.sizes().clone();
+        let mut wider = sizes.clone();
+        wider.pools.iter_mut().for_each(|pool| pool.element_bytes += 4);
+        let mut more = sizes.clone();
+        more.pools.push(PoolSize { name: "other", elements: 1, element_bytes: 4 });
+        let fewer = Sizes::default();
+        for other in [wider, more, fewer] {
+            if other == sizes {
+                // Brute force has no pools.
+                continue;
+            }
+            let error = structure.resize(device, &other).expect_err("they are of other pools");
+            assert!(matches!(error, AdsError::OtherPools { .. }), "{}: {error}", subject.name());
+            assert_eq!(*structure.sizes(), sizes, "{}", subject.name());
+        }
+    }
 }
 
 #[test]
