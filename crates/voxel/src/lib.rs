@@ -16,6 +16,7 @@
 //! departures.
 
 mod build;
+mod choices;
 mod config;
 mod layout;
 mod pool;
@@ -23,10 +24,8 @@ mod structure;
 mod validate;
 
 pub use build::Build;
-pub use config::{
-    Accept, Axes, Config, Coverage, Inside, Leaves, March, Marking, Payload, Storage, Traversal,
-    VOXEL_LEAVES_GRID,
-};
+pub use choices::{Accept, Axes, Coverage, Inside, Leaves, March, Marking, Payload, Storage, Traversal};
+pub use config::{Config, VOXEL_LEAVES_GRID};
 pub use layout::{Demand, FormulaBytes, formula_bytes, list_count, plan};
 pub use pool::Pool;
 pub use rasray_ads::{Addressing, Builder, Ends};
