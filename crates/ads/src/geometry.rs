@@ -1,12 +1,11 @@
 //! Posed triangles, the input of every structure.
 
 use std::mem::offset_of;
-use std::sync::atomic::{AtomicU32, Ordering};
 
 use bytemuck::{Pod, Zeroable, bytes_of, cast_slice, pod_read_unaligned};
 use rasray_gpu::{
-    Access, BindingSet, Buffer, BufferDesc, BufferRange, BufferUsage, ComputePipeline, Device, GpuError,
-    MemoryLocation, Recorder, SetLayout,
+    BindingSet, Buffer, BufferDesc, BufferRange, BufferUsage, ComputePipeline, Device, GpuError,
+    MemoryLocation, SetLayout,
 };
 
 use rasray_shaders_glsl::constants::ads::{
@@ -14,22 +13,12 @@ use rasray_shaders_glsl::constants::ads::{
 };
 use rasray_shaders_glsl::constants::contract::STATUS_FLAGS;
 
-use crate::geometry_gather::{Count, DRAW_ARGUMENT_BYTES, Gather, TRIANGLE_INDEX_BYTES, pipeline, whole};
-use crate::groups::folded;
+use crate::geometry_gather::{Count, Gather, TRIANGLE_INDEX_BYTES, pipeline, whole};
+use crate::geometry_stamp::{STAMP_STEP, new_stamps};
 use crate::{AdsError, GeometryDesc, GeometryExtent, GeometryHeader, GeometryRigid, IndexRange};
 
 /// Number of buffers in the geometry set.
 pub(crate) const BINDINGS: u32 = 4;
-
-/// Triangles per workgroup of `ads/geometry_check`, `ads/geometry_gather` and `ads/geometry_bounds`.
-const TRIANGLES_PER_GROUP: u64 = 64;
-
-/// Accesses of the readers of data that passes of a geometry write.
-const READERS: Access = Access::COMPUTE
-    .union(Access::VERTEX_READ)
-    .union(Access::FRAGMENT_READ)
-    .union(Access::INDIRECT_READ)
-    .union(Access::TRANSFER_READ);
 
 /// Triangles on the device that structures build from, at their positions at one moment, with the binding set
 /// through which shaders read them. [`Geometry::new`] makes it from buffers of a host, which it reads in
@@ -38,20 +27,20 @@ const READERS: Access = Access::COMPUTE
 /// Clones are cheap handles to the same buffers.
 #[derive(Clone, Debug)]
 pub struct Geometry {
-    desc: GeometryDesc,
-    header: Buffer,
-    check: ComputePipeline,
+    pub(crate) desc: GeometryDesc,
+    pub(crate) header: Buffer,
+    pub(crate) check: ComputePipeline,
     layout: SetLayout,
-    set: BindingSet,
+    pub(crate) set: BindingSet,
     /// Stamp in the status of a structure that was built for these triangles. It is the first of several if
     /// only the device knows the number of triangles.
-    stamp: u32,
+    pub(crate) stamp: u32,
     /// Count buffer, if only the device knows the number of triangles.
-    count: Option<Count>,
+    pub(crate) count: Option<Count>,
     /// Copy of the indices, if they are not read in place.
-    gather: Option<Gather>,
+    pub(crate) gather: Option<Gather>,
     /// Geometry of which this one is a part.
-    whole: Option<Box<Self>>,
+    pub(crate) whole: Option<Box<Self>>,
     space: Space,
 }
 
@@ -64,26 +53,6 @@ pub(crate) enum Space {
     Own,
     /// World space, with the same triangles also given in a space of their own.
     Mapped(Box<Geometry>),
-}
-
-/// Difference between consecutive stamps: the flags of a status lie in the bits below.
-const STAMP_STEP: u32 = STATUS_FLAGS + 1;
-
-/// Next stamp that no geometry of this process has yet, in units of [`STAMP_STEP`]; 0 is no stamp.
-static NEXT_STAMP: AtomicU32 = AtomicU32::new(1);
-
-/// Returns the first of `count` stamps that fit into one word, if `next` is the next free one. The stamps
-/// begin again after 2^28.
-fn stamps_from(next: u32, count: u32) -> u32 {
-    if next > u32::MAX / STAMP_STEP - count { 1 } else { next }
-}
-
-/// Returns the first of `count` consecutive stamps that no other geometry has.
-fn new_stamps(count: u32) -> u32 {
-    let after = |next| Some(stamps_from(next, count) + count);
-    let next =
-        NEXT_STAMP.fetch_update(Ordering::Relaxed, Ordering::Relaxed, after).unwrap_or_else(|next| next);
-    stamps_from(next, count) * STAMP_STEP
 }
 
 /// Value for a part without a map to the space that the part was built in: its rays are then tested against
@@ -108,7 +77,7 @@ fn rigid_place(bound_runs: usize) -> usize {
 }
 
 /// Returns true if a pass gathers the indices that shaders read, those of the whole geometry included.
-fn gathers(gather: Option<&Gather>, whole: Option<&Geometry>) -> bool {
+pub(crate) fn gathers(gather: Option<&Gather>, whole: Option<&Geometry>) -> bool {
     gather.is_some() || whole.is_some_and(|whole| whole.gather.is_some())
 }
 
@@ -254,37 +223,11 @@ impl Geometry {
         }
     }
 
-    /// Records the map that poses a part with a space of its own from here on; the caller records the
-    /// barriers around this transfer write. Does nothing for any other geometry.
-    pub fn record_map(&self, recorder: &mut Recorder<'_>, map: &GeometryRigid) {
-        for (header, place) in [Some(self), self.rest()].into_iter().flatten().filter_map(Self::map_place) {
-            recorder.update(header, place, bytes_of(map));
-        }
-    }
-
     /// Returns header and byte of the map of a part with a space of its own, also for the triangles in that
     /// space.
     pub(crate) fn map_place(&self) -> Option<(&Buffer, u64)> {
         let place = || (&self.header, self.header.size() - size_of::<GeometryRigid>() as u64);
         (!matches!(self.space, Space::World)).then(place)
-    }
-
-    /// Records the input that shaders do not read in place: the number of triangles if only the device knows
-    /// it, and gathered indices, visible to all who read them. Records nothing if neither is needed.
-    pub(crate) fn record_gather(&self, recorder: &mut Recorder<'_>) {
-        self.record_count(recorder);
-        let groups = self.groups();
-        if let (Some(Gather { pipeline, set, constants, .. }), Some(groups)) = (&self.gather, groups) {
-            recorder.barrier(READERS, Access::COMPUTE);
-            self.record(recorder, pipeline, Some(set), bytes_of(constants), groups);
-            recorder.barrier(Access::COMPUTE, READERS);
-        }
-        // If the device counts the triangles, the count pass writes the stamp.
-        if self.count.is_none() && gathers(self.gather.as_ref(), self.whole.as_deref()) {
-            recorder.barrier(READERS, Access::TRANSFER_WRITE);
-            recorder.fill(&self.header, offset_of!(GeometryHeader, stamp) as u64, 4, self.stamp);
-            recorder.barrier(Access::TRANSFER_WRITE, READERS);
-        }
     }
 
     /// Returns true if a structure with this status was built for these triangles, as far as the host knows
@@ -297,114 +240,6 @@ impl Geometry {
     /// Returns true if triangles cannot be read before [`Geometry::record_gather`].
     pub(crate) fn is_gathered(&self) -> bool {
         self.count.is_some() || gathers(self.gather.as_ref(), self.whole.as_deref())
-    }
-
-    /// Records the number of triangles if only the device knows it. For a part, also records the gathering of
-    /// the indices of the whole, from which the part's indices come. Both are visible to all who read them.
-    pub(crate) fn record_count(&self, recorder: &mut Recorder<'_>) {
-        if let Some(whole) = &self.whole {
-            whole.record_gather(recorder);
-        }
-        if let Some(Count { pipeline, set, constants, .. }) = &self.count {
-            recorder.barrier(READERS, Access::COMPUTE);
-            self.record(recorder, pipeline, Some(set), bytes_of(constants), [1; 3]);
-            recorder.barrier(Access::COMPUTE, READERS);
-        }
-    }
-
-    /// Records one pass over all triangles that reads the indices at their source: `in_place`, or `gathered`
-    /// for indices that a pass gathers, with their set and constants. Returns false if there are no
-    /// triangles.
-    pub(crate) fn record_measure(
-        &self,
-        recorder: &mut Recorder<'_>,
-        in_place: &ComputePipeline,
-        gathered: &ComputePipeline,
-    ) -> bool {
-        let Some(groups) = self.groups() else { return false };
-        match &self.gather {
-            None => self.record(recorder, in_place, None, &[], groups),
-            Some(Gather { set, constants, .. }) => {
-                self.record(recorder, gathered, Some(set), bytes_of(constants), groups);
-            }
-        }
-        true
-    }
-
-    /// Records [`Geometry::record_gather`], the count of triangles that violate the bounds, the number of
-    /// vertices or the maximum, visible to all who read it, and the copy of the count to four bytes of
-    /// `target`.
-    pub(crate) fn record_check(&self, recorder: &mut Recorder<'_>, target: &Buffer, offset: u64) {
-        let count = offset_of!(GeometryHeader, outside) as u64;
-        recorder.barrier(Access::COMPUTE, Access::TRANSFER_WRITE);
-        recorder.fill(&self.header, count, 4, 0);
-        recorder.barrier(Access::TRANSFER_WRITE, Access::COMPUTE);
-        self.record_gather(recorder);
-        if let Some(groups) = self.groups() {
-            self.record(recorder, &self.check, None, &[], groups);
-        }
-        recorder.barrier(Access::COMPUTE, READERS);
-        recorder.copy(&self.header, count, target, offset, 4);
-    }
-
-    /// Returns the workgroups of one thread per triangle; absent if there are no triangles.
-    pub(crate) fn groups(&self) -> Option<[u32; 3]> {
-        folded(u64::from(self.desc.triangle_count).div_ceil(TRIANGLES_PER_GROUP))
-    }
-
-    /// Records one dispatch that reads or writes the geometry.
-    pub(crate) fn record(
-        &self,
-        recorder: &mut Recorder<'_>,
-        pipeline: &ComputePipeline,
-        more: Option<&BindingSet>,
-        constants: &[u8],
-        groups: [u32; 3],
-    ) {
-        recorder.bind_compute(pipeline);
-        recorder.bind_sets(0, &[&self.set]);
-        if let Some(more) = more {
-            recorder.bind_sets(1, &[more]);
-        }
-        if !constants.is_empty() {
-            recorder.push_constants(constants);
-        }
-        recorder.dispatch(groups);
-    }
-
-    /// Draws all triangles onto `views` views, at most
-    /// [`GEOMETRY_DRAW_VIEWS`](rasray_shaders_glsl::constants::ads::GEOMETRY_DRAW_VIEWS), within a rendering:
-    /// three vertices per triangle and one instance per view.
-    pub fn record_draw(&self, recorder: &mut Recorder<'_>, views: u32) {
-        match &self.count {
-            // An offset beyond the arguments is a mistake of the recording.
-            Some(count) => {
-                let place = u64::from(views.wrapping_sub(1)) * DRAW_ARGUMENT_BYTES;
-                recorder.draw_indirect(&count.draw_arguments, place);
-            }
-            None => recorder.draw(3 * self.desc.triangle_count, views, 0),
-        }
-    }
-
-    /// Takes the buffers handed in over from the queue family that wrote them, for the queue family of the
-    /// device. It records the second half of a transfer of ownership, after a semaphore that the first half
-    /// signals. If both families are equal, no transfer is needed and nothing is recorded. Data that the same
-    /// family writes to a buffer later needs no other transfer.
-    ///
-    /// Not tested on a device with two queue families: tests check the recorded barriers alone.
-    pub fn record_acquire(&self, recorder: &mut Recorder<'_>, from_family: u32) {
-        let ranges = self.ranges(recorder.device());
-        recorder.acquire(&ranges, from_family, READERS);
-    }
-
-    /// Hands the buffers over to a queue family that writes them next. It records the first half of a
-    /// transfer of ownership; the other family records the second half, over [`Geometry::ranges`]. If both
-    /// families are equal, no transfer is needed and nothing is recorded.
-    ///
-    /// Not tested on a device with two queue families, as [`Geometry::record_acquire`].
-    pub fn record_release(&self, recorder: &mut Recorder<'_>, to_family: u32) {
-        let ranges = self.ranges(recorder.device());
-        recorder.release(&ranges, to_family, READERS);
     }
 
     /// Returns the ranges that are read of the buffers handed in, in bytes: positions, indices, draws and

@@ -51,6 +51,8 @@ mod geometry_desc;
 mod geometry_extent;
 mod geometry_gather;
 mod geometry_parts;
+mod geometry_record;
+mod geometry_stamp;
 mod groups;
 mod inspect;
 mod kernels;
