@@ -1,10 +1,9 @@
 //! Hints for errors of libraries: advice by options of the command, and exit codes.
 
-use crate::error::EXIT_REFUSED;
 use rasray_denoise::DenoiseError;
 use rasray_experiment::{
     AdsError, ExperimentError, FrameError, GpuError, GpuSceneError, IntegratorError, OccluderError,
-    OracleError, ReferenceError, SelectionError, SystemsError,
+    OracleError, ReferenceError, SelectionError, SystemsError, TracerError,
 };
 use rasray_metrics::MetricsError;
 use rasray_ray_files::{FileError, FormatError};
@@ -14,11 +13,12 @@ use rasray_scene_source::LoadError;
 use rasray_systems::{SYSTEMS, System};
 use std::borrow::Cow;
 
+mod defects;
 mod exit_codes;
 #[cfg(test)]
 mod tests;
 
-use exit_codes::code_of_tracer;
+use defects::is_defect;
 #[cfg(feature = "viewer")]
 pub(crate) use exit_codes::code_of_viewer;
 pub(crate) use exit_codes::exit_code;
@@ -86,6 +86,9 @@ pub(crate) fn message(error: &ExperimentError) -> String {
 
 /// Returns the advice for an error; empty if the message already gives it.
 pub(crate) fn help(error: &ExperimentError) -> Cow<'static, str> {
+    if is_defect(error) {
+        return DEFECT.into();
+    }
     match error {
         ExperimentError::Selection(error) => help_of_selection(error),
         ExperimentError::Load(error) => help_of_scene_source(error),
@@ -102,21 +105,19 @@ pub(crate) fn help(error: &ExperimentError) -> Cow<'static, str> {
     }
 }
 
+/// Returns the advice for an error that is no defect, in words that are always the same.
 fn fixed_help(error: &ExperimentError) -> &'static str {
     match error {
         ExperimentError::Systems(SystemsError::Value { .. }) => LEAVE,
         ExperimentError::Systems(_) => "see `rasray render --help`",
         ExperimentError::Opening(_) => "`rasray info` lists the devices and what they lack",
-        ExperimentError::Gpu(error) => help_of_gpu(error, SMALLER),
+        ExperimentError::Gpu(_) => SMALLER,
         ExperimentError::Ads(error) => help_of_ads(error),
         ExperimentError::GpuScene(error) => help_of_tables(error),
         ExperimentError::Integrator(error) => help_of_integrator(error),
-        ExperimentError::Frame(FrameError::Unfinished { .. }) | ExperimentError::Unanswered { .. } => LONG,
-        ExperimentError::Frame(FrameError::Unstable { .. }) => LOST,
-        ExperimentError::Frame(FrameError::DrawnAdaptively) => {
-            "write --primary trace, or leave out --adaptive"
-        }
-        ExperimentError::Tracer(error) if code_of_tracer(error) == EXIT_REFUSED => LOST,
+        ExperimentError::Frame(error) => help_of_frame(error),
+        ExperimentError::Tracer(error) => help_of_tracer(error),
+        ExperimentError::Unanswered { .. } => LONG,
         ExperimentError::Oracle(error) => help_of_oracle(error),
         ExperimentError::Reference(ReferenceError::Oracle(error)) => help_of_oracle(error),
         ExperimentError::Reference(ReferenceError::EmptyImage { .. }) => "choose a larger --size, and --spp",
@@ -146,30 +147,40 @@ fn fixed_help(error: &ExperimentError) -> &'static str {
         ExperimentError::MissingPixels { .. } => {
             "nothing was written; this is a defect of the renderer, please report it with the command line"
         }
-        _ => DEFECT,
+        _ => "",
     }
 }
 
-/// Returns the advice to ask for less, unless the call itself was wrong.
-fn help_of_gpu(error: &GpuError, smaller: &'static str) -> &'static str {
+fn help_of_frame(error: &FrameError) -> &'static str {
     match error {
-        GpuError::InvalidUse { .. }
-        | GpuError::InvalidShader { .. }
-        | GpuError::OutOfRange { .. }
-        | GpuError::FeatureNotEnabled { .. } => DEFECT,
-        _ => smaller,
+        FrameError::Gpu(_) => SMALLER,
+        FrameError::Ads(error) => help_of_ads(error),
+        FrameError::Tracer(error) => help_of_tracer(error),
+        FrameError::Integrator(error) => help_of_integrator(error),
+        FrameError::Scene(error) => help_of_tables(error),
+        FrameError::Unfinished { .. } => LONG,
+        FrameError::Unstable { .. } => LOST,
+        FrameError::DrawnAdaptively => "write --primary trace, or leave out --adaptive",
+        _ => "",
+    }
+}
+
+fn help_of_tracer(error: &TracerError) -> &'static str {
+    match error {
+        TracerError::Gpu(_) => SMALLER,
+        TracerError::Ads(error) => help_of_ads(error),
+        _ => LOST,
     }
 }
 
 fn help_of_ads(error: &AdsError) -> &'static str {
     match error {
-        AdsError::Gpu(error) => help_of_gpu(error, SMALLER),
-        AdsError::PoolTooLarge { .. } => SMALLER,
+        AdsError::Gpu(_) | AdsError::PoolTooLarge { .. } => SMALLER,
         AdsError::Option { .. } => LEAVE,
         AdsError::NoFirstHits { .. } => "write --primary trace",
         AdsError::InParts { .. } => "leave out --refresh, or choose another --system",
         AdsError::Damaged { .. } => LOST,
-        _ => DEFECT,
+        _ => "",
     }
 }
 
@@ -181,7 +192,6 @@ fn help_of_tables(error: &GpuSceneError) -> &'static str {
         | GpuSceneError::Ads(AdsError::Gpu(GpuError::OutOfDeviceMemory { .. })) => SMALLER_SCENE,
         GpuSceneError::OtherTriangles { .. } => "show the scene at one --time",
         GpuSceneError::DeformedTwice { .. } | GpuSceneError::Malformed { .. } => DAMAGED,
-        GpuSceneError::Gpu(error) => help_of_gpu(error, SMALLER),
         GpuSceneError::Ads(error) => help_of_ads(error),
         _ => SMALLER,
     }
@@ -189,8 +199,6 @@ fn help_of_tables(error: &GpuSceneError) -> &'static str {
 
 fn help_of_integrator(error: &IntegratorError) -> &'static str {
     match error {
-        // The message lists the possible values.
-        IntegratorError::Value(_) => "",
         IntegratorError::PhotonBytes { .. } => "choose fewer --photon-paths, or fewer --bounces",
         IntegratorError::Crowded { .. } => "choose a smaller --radius, or fewer --photon-paths",
         IntegratorError::UnknownOption { .. } => "leave it out, or choose another --integrator",
@@ -199,14 +207,13 @@ fn help_of_integrator(error: &IntegratorError) -> &'static str {
         IntegratorError::Ads(AdsError::Option { option: "fetch", .. }) => {
             "leave out --fetch raster, or choose another --system"
         }
-        IntegratorError::Gpu(error) | IntegratorError::Ads(AdsError::Gpu(error)) => {
-            help_of_gpu(error, SMALLER_IMAGE)
-        }
-        IntegratorError::Ads(_)
+        IntegratorError::Gpu(_)
+        | IntegratorError::Ads(_)
         | IntegratorError::WaveSize { .. }
         | IntegratorError::ImageSize { .. }
         | IntegratorError::WaveCapacity { .. } => SMALLER_IMAGE,
-        _ => DEFECT,
+        // The message about a value lists the possible ones.
+        _ => "",
     }
 }
 

@@ -1,15 +1,15 @@
 //! Exit codes of errors of libraries.
 
-use super::{DEFECT, help};
+use super::defects::is_defect;
 use crate::error::{EXIT_DEFECT, EXIT_DEVICE, EXIT_REFUSED, EXIT_USAGE};
 use rasray_experiment::{
     AdsError, ExperimentError, FrameError, GpuSceneError, Holder, IntegratorError, TracerError,
 };
 
-/// Returns the exit code: [`EXIT_DEFECT`] if the advice is to report a defect, whatever failed; otherwise
-/// [`EXIT_DEVICE`] only for a missing feature or a failure of a device.
+/// Returns the exit code: [`EXIT_DEFECT`] for a defect, whatever failed; otherwise [`EXIT_DEVICE`] only for a
+/// missing feature or a failure of a device.
 pub(crate) fn exit_code(error: &ExperimentError) -> u8 {
-    if help(error) == DEFECT {
+    if is_defect(error) {
         return EXIT_DEFECT;
     }
     match error {
@@ -59,7 +59,7 @@ fn code_of_integrator(error: &IntegratorError) -> u8 {
     }
 }
 
-pub(super) fn code_of_tracer(error: &TracerError) -> u8 {
+fn code_of_tracer(error: &TracerError) -> u8 {
     match error {
         TracerError::Gpu(_) => EXIT_DEVICE,
         TracerError::Ads(error) => code_of_ads(error),

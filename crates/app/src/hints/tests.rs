@@ -1,7 +1,7 @@
 use super::*;
 use crate::error::AppError;
 use rasray_ads::PoolStatus;
-use rasray_experiment::{Holder, OptionValues, TracerError, one_system};
+use rasray_experiment::{Holder, OptionValues, one_system};
 use rasray_options::Value;
 use rasray_systems::{Preset, Spec};
 use std::error::Error;
