@@ -77,6 +77,12 @@ pub enum AppError {
         /// Advice, in one sentence; may be empty.
         help: String,
     },
+    /// The program contradicts itself, whatever the input. Exit code 5, with the advice to report it.
+    #[error("{message}")]
+    Defect {
+        /// Description of the contradiction, and what is not done because of it.
+        message: String,
+    },
     /// A hard case's target was not met, and `--check` asked for it. Exit code 1.
     #[error("{message}")]
     Target {
@@ -146,6 +152,7 @@ impl AppError {
             Self::Viewer(error) => hints::code_of_viewer(error),
             Self::About { source, .. } => source.exit_code(),
             Self::Refused { .. } => EXIT_REFUSED,
+            Self::Defect { .. } => EXIT_DEFECT,
             Self::Target { .. } => EXIT_TARGET,
             Self::Interrupted { .. } => EXIT_INTERRUPTED,
         }
@@ -166,6 +173,7 @@ impl AppError {
             Self::Signals(_) => {
                 "run in an environment that lets programs handle SIGINT, SIGTERM and SIGHUP".into()
             }
+            Self::Defect { .. } => hints::DEFECT.into(),
             Self::About { source, .. } => source.help(),
         }
     }
@@ -192,6 +200,8 @@ mod tests {
         assert_eq!(AppError::input(path, "a", "b").exit_code(), 2);
         assert_eq!(AppError::refused("a", "b").exit_code(), 4);
         assert_eq!(AppError::interrupted("a", "b").exit_code(), 130);
+        let defect = AppError::Defect { message: "a".to_owned() };
+        assert_eq!((defect.exit_code(), &*defect.help()), (5, hints::DEFECT));
         let target = AppError::Target { message: "a".to_owned(), help: "b".to_owned() };
         assert_eq!((target.exit_code(), &*target.help()), (1, "b"));
     }

@@ -35,7 +35,7 @@ const SMALLER_SCENE: &str =
 
 /// Advice for an error that neither input nor device causes; its exit code is
 /// [`EXIT_DEFECT`](crate::error::EXIT_DEFECT).
-const DEFECT: &str = "this is a defect; please report it with the command line";
+pub(crate) const DEFECT: &str = "this is a defect; please report it with the command line";
 
 const LOST: &str = "its results are not kept; please report it with the command line";
 
@@ -80,6 +80,7 @@ pub(crate) fn message(error: &ExperimentError) -> String {
         ExperimentError::NoReference { known } => {
             format!("--image compares with the reference, which has the integrators {known}")
         }
+        ExperimentError::MissingPixels { .. } => format!("{error}; nothing was written"),
         other => other.to_string(),
     }
 }
@@ -143,9 +144,6 @@ fn fixed_help(error: &ExperimentError) -> &'static str {
         ExperimentError::TemporaryFile { .. } => "set TMPDIR to a folder for temporary files",
         ExperimentError::MissingEntries { .. } => {
             "its results are not kept; lower --resolution, or use a device with more memory"
-        }
-        ExperimentError::MissingPixels { .. } => {
-            "nothing was written; this is a defect of the renderer, please report it with the command line"
         }
         _ => "",
     }

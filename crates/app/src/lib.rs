@@ -31,7 +31,7 @@ use terminal::Talk;
 
 /// Runs the command: program name first in `arguments`; `open` makes the backend that renders. Returns the
 /// exit code: 0 done, 1 missed targets with `--check`, 2 bad input or usage, 3 device, 4 refused to lose
-/// data, 130 stopped by a signal.
+/// data, 5 a defect, 130 stopped by a signal.
 ///
 /// Takes over SIGINT, SIGTERM and SIGHUP and writes to stdout and stderr; call it once per process.
 pub fn run(arguments: impl IntoIterator<Item = OsString>, open: &mut OpenBackend<'_>) -> u8 {

@@ -145,10 +145,8 @@ impl Form {
             Self::Csv => {
                 return Err(AppError::usage("a .csv is of campaigns", "name a .json, .md, .html or .jsonl"));
             }
-            Self::Page => rasray_report_html::page(report, figures).map_err(|error| {
-                let help =
-                    "the page was not written; this is a defect, please report it with the command line";
-                AppError::refused(error.to_string(), help)
+            Self::Page => rasray_report_html::page(report, figures).map_err(|error| AppError::Defect {
+                message: format!("{error}; the page was not written"),
             })?,
         })
     }

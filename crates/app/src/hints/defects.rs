@@ -41,7 +41,6 @@ pub(super) fn is_defect(error: &ExperimentError) -> bool {
         | ExperimentError::HitCount { .. }
         | ExperimentError::TemporaryFile { .. }
         | ExperimentError::MissingEntries { .. }
-        | ExperimentError::MissingPixels { .. }
         | ExperimentError::Unanswered { .. } => false,
         _ => true,
     }

@@ -19,9 +19,7 @@ pub(crate) fn exit_code(error: &ExperimentError) -> u8 {
         | ExperimentError::PoolExceedsBinding { .. }
         | ExperimentError::SystemNeedsFeature { .. }
         | ExperimentError::ImageTooLarge { memory: Holder::Device, .. } => EXIT_DEVICE,
-        ExperimentError::MissingEntries { .. }
-        | ExperimentError::Unanswered { .. }
-        | ExperimentError::MissingPixels { .. } => EXIT_REFUSED,
+        ExperimentError::MissingEntries { .. } | ExperimentError::Unanswered { .. } => EXIT_REFUSED,
         ExperimentError::Ads(error) => code_of_ads(error),
         ExperimentError::GpuScene(error) => code_of_scene(error),
         ExperimentError::Integrator(error) => code_of_integrator(error),

@@ -113,7 +113,6 @@ fn what_is_not_whole_is_refused() {
     let system = || "bvh robust".to_owned();
     check(4, "3 entries", "--resolution", E::MissingEntries { system: system(), entries: 3 });
     check(4, "2 rays had no answer", "--system bvh", E::Unanswered { system: system(), rays: 2 });
-    check(4, "1 of 2 pixels", "defect", E::MissingPixels { image: "depth", pixels: 1, expected: 2 });
     let damaged = AdsError::Damaged { structure: bvh, fault: "a loop".to_owned() };
     check(4, "a loop", "not kept", E::from(damaged));
 }
@@ -135,6 +134,8 @@ fn what_is_to_be_reported_as_a_defect_ends_with_5() {
     of("log steps", E::from(TracerError::NoSteps { structure: "bvh" }));
     of("all 2 slots", E::from(TracerError::Busy { slots: 2 }));
     of("not made to move", E::NotPosed);
+    let image = E::MissingPixels { image: "depth", pixels: 1, expected: 2 };
+    of("1 of 2 pixels; nothing was written", image);
     of("validation layer says: bad", E::Validation { message: "bad".to_owned() });
     of("triangles of E5", E::OtherTriangles { case: "E5".to_owned() });
     of("not finite", E::from(MetricsError::NonFiniteReference { pixel: 0 }));
