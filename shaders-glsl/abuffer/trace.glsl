@@ -49,7 +49,7 @@ uint abuffer_trace(AbufferRef s, Ray ray, inout TraceState state, bool any_hit) 
         if (restored) {
             abuffer_restore(state, traversal, search);
         } else {
-            trace_log_visit(STEP_VIEW, distant ? VIEW_ALL : traversal.segment.face, 0u, 0u, traversal.segment.t_begin,
+            trace_log_view(distant ? VIEW_ALL : traversal.segment.face, traversal.segment.t_begin,
                 traversal.segment.t_end);
             searching = false;
         }

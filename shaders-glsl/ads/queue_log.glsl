@@ -21,7 +21,7 @@ uint trace_log_searched = 0u;
 // Flag that is 1 after a cell was visited, until anything in it is read.
 uint trace_log_unread = 0u;
 // Number of the view entered last plus one; 0 before the first.
-uint trace_log_view = 0u;
+uint trace_log_entered = 0u;
 
 // Place of the first step of this dispatch.
 uint trace_log_first = 0u;
@@ -48,15 +48,10 @@ void trace_log_end() {
 }
 
 // Counts a step. The kind is a constant wherever steps are logged, so that little of this code remains.
-void trace_log_count(uint kind, uint a) {
+void trace_log_count(uint kind) {
     bool reads = kind == STEP_ENTRY || kind == STEP_OCCUPIED;
-    // A segment may end and the next one begin in the same view.
-    if (kind == STEP_VIEW && a != VIEW_NEAR && a != VIEW_ALL) {
-        trace_log_views += trace_log_view != a + 1u ? 1u : 0u;
-        trace_log_view = a + 1u;
-    }
     trace_log_searched += reads ? trace_log_unread : 0u;
-    trace_log_unread = kind == STEP_CELL ? 1u : (reads || kind == STEP_VIEW ? 0u : trace_log_unread);
+    trace_log_unread = kind == STEP_CELL ? 1u : (reads ? 0u : trace_log_unread);
 }
 
 void trace_log(uint kind, uint a, uint b, uint c, float t_low, float t_high) {
@@ -68,10 +63,23 @@ void trace_log(uint kind, uint a, uint b, uint c, float t_low, float t_high) {
     }
 }
 
-// Logs and counts a visit to a view, a cell, or something that a cell holds.
+// Logs the view that a ray enters, and counts it. The near region, and all triangles tested one by one, are no views;
+// a segment may end and the next one begin in the same view.
+void trace_log_view(uint view, float t_low, float t_high) {
+    if (COUNTERS >= COUNTERS_SUMS) {
+        if (view != VIEW_NEAR && view != VIEW_ALL) {
+            trace_log_views += trace_log_entered != view + 1u ? 1u : 0u;
+            trace_log_entered = view + 1u;
+        }
+        trace_log_unread = 0u;
+    }
+    trace_log(STEP_VIEW, view, 0u, 0u, t_low, t_high);
+}
+
+// Logs and counts a visit to a cell, or to something that a cell holds.
 void trace_log_visit(uint kind, uint a, uint b, uint c, float t_low, float t_high) {
     if (COUNTERS >= COUNTERS_SUMS) {
-        trace_log_count(kind, a);
+        trace_log_count(kind);
     }
     trace_log(kind, a, b, c, t_low, t_high);
 }

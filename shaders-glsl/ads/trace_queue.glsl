@@ -101,7 +101,7 @@ bool trace_begin(uint slot, Ray ray, out TraceState state) {
     if (queue_header.round > 0u) {
         state = queue_state(slot, ray);
         trace_log_unread = state.visit & 1u;
-        trace_log_view = state.visit >> 1;
+        trace_log_entered = state.visit >> 1;
     } else if (trace.part == PART_NEXT) {
         Hit before = queue_hit(slot);
         if (before.primitive == PRIMITIVE_NONE) {
@@ -116,7 +116,7 @@ bool trace_begin(uint slot, Ray ray, out TraceState state) {
 
 void trace_store(uint slot, uint result, TraceState state, Hit hit) {
     trace_log_end();
-    state.visit = trace_log_view << 1 | trace_log_unread;
+    state.visit = trace_log_entered << 1 | trace_log_unread;
     queue_store_work(slot, state);
     queue_add_visits(trace_log_views, trace_log_searched);
     if (result == TRACE_PAUSED) {

@@ -47,7 +47,7 @@ bool bricks_trace_cells(BricksRef s, Ray ray, BricksSpan span, uint alone, bool 
                 traversal.steepness = bricks_line_steepness(line);
             }
             if (walk.begins) {
-                trace_log_visit(STEP_VIEW, walk.face, 0u, 0u, walk.t, span.t_last);
+                trace_log_view(walk.face, walk.t, span.t_last);
                 walk.cell = clamp(bricks_line_cell_at(line, traversal, walk.t), ivec3(0), traversal.cells - 1);
             }
             walk.turns = false;
@@ -172,7 +172,7 @@ uint bricks_trace(BricksRef s, Ray ray, inout TraceState state, bool any_hit) {
         alone = distant ? BRICKS_ALONE_ALL : (intersects_near ? BRICKS_ALONE_NEAR : BRICKS_ALONE_NONE);
     }
     if (!resumed && alone != BRICKS_ALONE_NONE) {
-        trace_log(STEP_VIEW, distant ? VIEW_ALL : VIEW_NEAR, 0u, 0u, clip.x, clip.y);
+        trace_log_view(distant ? VIEW_ALL : VIEW_NEAR, clip.x, clip.y);
     }
     BricksSpan span = BricksSpan(origin, clip.x, clip.y, near, slack);
     if (bricks_trace_cells(s, ray, span, alone, any_hit, resumed, state)) {

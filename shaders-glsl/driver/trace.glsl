@@ -31,7 +31,7 @@ void driver_trace_boxes(DriverRef s, Ray ray, vec3 origin, vec2 clip, float slac
     vec3 direction = ray.direction * driver_scale_of(size);
     vec2 range = clamp(clip * longer * scale, vec2(0.0), vec2(1.0e30));
     uint count = geometry_triangle_count();
-    trace_log_visit(STEP_VIEW, 0u, 0u, 0u, clip.x, clip.y);
+    trace_log_view(0u, clip.x, clip.y);
     rayQueryEXT query;
     rayQueryInitializeEXT(query, accelerationStructureEXT(DRIVER_HEADER(s).tree), gl_RayFlagsNoneEXT, 0xFFu, origin * scale,
         range.x, direction, range.y);
@@ -84,7 +84,7 @@ uint driver_trace(DriverRef s, Ray ray, inout TraceState state, bool any_hit) {
     uint work = 0u;
     uint place = state.cursor[1];
     if (state.cursor[0] == 0u) {
-        trace_log(STEP_VIEW, VIEW_ALL, 0u, 0u, clip.x, clip.y);
+        trace_log_view(VIEW_ALL, clip.x, clip.y);
     }
     if (listed_test(s, ray, true, any_hit, place, state, work)) {
         state.cursor[0] = bits_put(true, DRIVER_CURSOR_STARTED);

@@ -63,7 +63,7 @@ bool grid_trace_cells(GridRef s, Ray ray, vec3 origin, float t, float t_last, fl
         cell = grid_cell_of_bits(state.cursor[2]);
         entry = state.cursor[3];
     } else {
-        trace_log_visit(STEP_VIEW, 0u, 0u, 0u, t, t_last);
+        trace_log_view(0u, t, t_last);
         cell = clamp(box_line_cell_at(line, t, ivec3(cells)), ivec3(0), ivec3(cells) - 1);
     }
     uvec2 tested = uvec2(PRIMITIVE_NONE);
@@ -146,7 +146,7 @@ uint grid_trace(GridRef s, Ray ray, inout TraceState state, bool any_hit) {
         uint work = 0u;
         uint place = state.cursor[3];
         if (state.cursor[0] == 0u) {
-            trace_log(STEP_VIEW, VIEW_ALL, 0u, 0u, clip.x, clip.y);
+            trace_log_view(VIEW_ALL, clip.x, clip.y);
         }
         if (listed_test(s, ray, true, any_hit, place, state, work)) {
             state.cursor[0] = bits_put(true, GRID_CURSOR_STARTED);

@@ -221,7 +221,7 @@ uint ldc_trace(LdcRef s, Ray ray, inout TraceState state, bool any_hit) {
             ldc_restore(state, traversal, search);
             restored = false;
         } else {
-            trace_log_visit(STEP_VIEW, 2u * axis, 0u, 0u, clip.x, clip.y);
+            trace_log_view(2u * axis, clip.x, clip.y);
             more = ldc_begin_view(clip, traversal);
         }
         if (ldc_trace_view(s, ray, any_hit, ordered, more, traversal, search, state, work)) {

@@ -108,7 +108,7 @@ uint primitive_trace(PrimitiveRef s, Ray ray, inout TraceState state, bool any_h
                 continue;
             }
             primitive_begin_traversal(s, origin, direction, traversal);
-            trace_log_visit(STEP_VIEW, distant ? VIEW_ALL : traversal.segment.face, 0u, 0u, traversal.segment.t_begin, traversal.segment.t_end);
+            trace_log_view(distant ? VIEW_ALL : traversal.segment.face, traversal.segment.t_begin, traversal.segment.t_end);
         }
         restored = false;
         t = traversal.segment.t_end;
