@@ -76,8 +76,8 @@ pub trait Structure: Send + Sync {
     /// [`rasray_gpu::Recorded`].
     ///
     /// # Errors
-    /// The sizes name other pools ([`AdsError::OtherPools`]), a pool exceeds what one binding can hold, or out
-    /// of memory.
+    /// The sizes name other pools ([`AdsError::OtherPools`]), a pool exceeds what one binding can hold, or
+    /// memory is exhausted.
     fn resize(&mut self, device: &Device, sizes: &Sizes) -> Result<(), AdsError>;
 
     /// Replaces the triangles; the next build reads the new ones. Until that build is complete traces answer

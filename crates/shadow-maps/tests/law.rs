@@ -226,8 +226,8 @@ fn a_surface_does_not_shade_itself() {
     expect_silence(&device);
 }
 
-/// Checks that maps shade at most 0.2 % of the lit points of a ball, whose triangles are smaller and larger than
-/// texels, by lights outside and within.
+/// Checks that maps shade at most 0.2 % of the lit points of a ball, whose triangles are smaller and larger
+/// than texels, by lights outside and within.
 #[test]
 fn a_ball_shades_at_most_one_in_500_of_its_lit_points() {
     let (device, _turn) = device();
