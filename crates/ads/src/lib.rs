@@ -17,9 +17,10 @@
 //! # Building
 //! The exact demand for memory is known only after the GPU ran, so the caller resumes a build:
 //!
-//! 1. Record a build ([`Structure::record_build`]), submit it, and wait.
+//! 1. Prepare a build ([`Structure::prepare_build`]), record it ([`Structure::record_build`]), submit it, and
+//!    wait.
 //! 2. Read the [`BuildStatus`] ([`Structure::status`]), and check it ([`Structure::check`]).
-//! 3. On [`Check::Grow`] resize and record again; [`Check::Complete`] ends the build.
+//! 3. On [`Check::Grow`] resize and begin again; [`Check::Complete`] ends the build.
 //!
 //! Until a build of the present triangles is complete, traces answer "not ready" and count these answers.
 //! They never give a partial answer, nor an answer for triangles that the structure had before.

@@ -48,7 +48,8 @@ impl Device {
     /// - Instance, physical device, device, queue, queue family and pipeline cache belong together and are
     ///   valid until the last object made from the returned device is dropped.
     /// - Every feature in `enabled` was enabled when the device was made (with its extension where it is
-    ///   one), and `debug_utils` is true only if that extension is enabled.
+    ///   one), and `debug_utils` is true only if that extension is enabled and no validation layer older
+    ///   than 1.3.242 is.
     /// - The queue is not used elsewhere while [`Device::submit`], [`Device::upload`], [`Device::download`]
     ///   or any other function that is documented to submit runs, such as a constructor of a queue of rays or
     ///   of a film; and the pipeline cache was made without

@@ -116,7 +116,8 @@ struct Used {
 ///
 /// Order of calls; any other is an error:
 ///
-/// 1. per frame, in the order of submission: [`FrameStructure::record`] with a slot;
+/// 1. per frame, in the order of submission: [`FrameStructure::prepare`], which structures that are built on
+///    the device alone do not need, then [`FrameStructure::record`] with a slot;
 /// 2. after the fence of the slot, in the same order, and before the slot is recorded again:
 ///    [`FrameStructure::finish`].
 ///

@@ -98,7 +98,7 @@ fn records_of_every_structure() {
     }
 }
 
-/// Whatever a module has push constants of is a record of Rust, and where both readers find them they agree.
+/// Checks that the push constants of every module are a record of Rust, and that both readers agree on them.
 #[test]
 fn push_constants_of_every_module() {
     let known: Vec<_> = all_records().map(|record| record.name).collect();

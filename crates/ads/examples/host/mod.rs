@@ -148,7 +148,8 @@ impl Host {
             queue_family: self.family,
             api_version: vk::API_VERSION_1_3,
             enabled: enabled.to_vec(),
-            debug_utils: true,
+            // The validation layer may be older than 1.3.242, with which labels are not allowed.
+            debug_utils: false,
             pipeline_cache: vk::PipelineCache::null(),
             memory: None,
             memory_limit: None,
