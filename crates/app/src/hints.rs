@@ -1,5 +1,6 @@
 //! Hints for errors of libraries: advice by options of the command, and exit codes.
 
+use crate::error::EXIT_DEFECT;
 use rasray_denoise::DenoiseError;
 use rasray_experiment::{
     AdsError, ExperimentError, FrameError, GpuError, GpuSceneError, IntegratorError, OccluderError,
@@ -13,12 +14,10 @@ use rasray_scene_source::LoadError;
 use rasray_systems::{SYSTEMS, System};
 use std::borrow::Cow;
 
-mod defects;
 mod exit_codes;
 #[cfg(test)]
 mod tests;
 
-use defects::is_defect;
 #[cfg(feature = "viewer")]
 pub(crate) use exit_codes::code_of_viewer;
 pub(crate) use exit_codes::exit_code;
@@ -34,7 +33,7 @@ const SMALLER_SCENE: &str =
     "try a scene with fewer triangles and images, a smaller map for --environment, or another --device";
 
 /// Advice for an error that neither input nor device causes; its exit code is
-/// [`EXIT_DEFECT`](crate::error::EXIT_DEFECT).
+/// [`EXIT_DEFECT`].
 pub(crate) const DEFECT: &str = "this is a defect; please report it with the command line";
 
 const LOST: &str = "its results are not kept; please report it with the command line";
@@ -87,7 +86,7 @@ pub(crate) fn message(error: &ExperimentError) -> String {
 
 /// Returns the advice for an error; empty if the message already gives it.
 pub(crate) fn help(error: &ExperimentError) -> Cow<'static, str> {
-    if is_defect(error) {
+    if exit_code(error) == EXIT_DEFECT {
         return DEFECT.into();
     }
     match error {
