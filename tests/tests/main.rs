@@ -23,6 +23,7 @@ mod layout;
 mod ldc;
 #[path = "misuse/main.rs"]
 mod misuse;
+mod modules;
 #[path = "payloads/main.rs"]
 mod payloads;
 #[path = "pose/main.rs"]

@@ -91,9 +91,7 @@ impl Modules {
                 let name = shader.name.strip_prefix(self.prefix);
                 name.is_some_and(|name| name.starts_with('/') && name.ends_with(".address") == by_address)
             });
-            own.filter_map(|shader| storage_buffers_used(shader.name, &shader.words()).ok())
-                .max()
-                .unwrap_or(0)
+            own.filter_map(|shader| storage_buffers_used(&shader.words()).ok()).max().unwrap_or(0)
         })
     }
 

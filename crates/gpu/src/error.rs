@@ -199,6 +199,11 @@ pub enum GpuError {
 }
 
 impl GpuError {
+    /// Returns the error for the shader of a pipeline whose words are not a module.
+    pub(crate) fn of_shader(name: &str, error: rasray_spirv::NotAModule) -> Self {
+        Self::InvalidShader { name: name.to_owned(), reason: error.reason }
+    }
+
     /// Makes the typed error for a result of a Vulkan call; `during` names the object or pass that the call
     /// concerned.
     pub(crate) fn from_vulkan(result: vk::Result, call: &'static str, during: &str) -> Self {

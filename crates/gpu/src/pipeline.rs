@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use ash::vk;
+use rasray_spirv::{specialised, used_bindings};
 
 use crate::device::Device;
 use crate::device_core::Core;
@@ -14,7 +15,6 @@ use crate::raster_options::RasterOptions;
 use crate::set_layout::SetLayout;
 use crate::set_parts::Mask;
 use crate::shader_stage::{Module, Specialisation};
-use crate::spirv::used_bindings;
 
 /// A compute pipeline. Clones are handles to the same pipeline.
 #[derive(Clone, Debug)]
@@ -88,9 +88,10 @@ impl Device {
             stages: vk::ShaderStageFlags::COMPUTE,
             bind_point: vk::PipelineBindPoint::COMPUTE,
         };
-        let recipe = asked.recipe(&[desc.spirv], desc.constants, RasterOptions::default());
-        let inner = self.shared_pipeline(&asked, recipe, |layout| {
-            let module = Module::create(&self.core, desc.name, desc.spirv)?;
+        let modules = [desc.spirv];
+        let recipe = asked.recipe(&modules, desc.constants, RasterOptions::default());
+        let inner = self.shared_pipeline(&asked, modules, recipe, |layout, [spirv]| {
+            let module = Module::create(&self.core, desc.name, spirv)?;
             let values = Specialisation::new(desc.constants);
             let specialisation = values.info();
             let stage = module.stage(vk::ShaderStageFlags::COMPUTE, &specialisation);
@@ -138,54 +139,58 @@ impl Device {
             stages: vk::ShaderStageFlags::VERTEX | vk::ShaderStageFlags::FRAGMENT,
             bind_point: vk::PipelineBindPoint::GRAPHICS,
         };
-        let recipe = asked.recipe(&[desc.vertex_spirv, desc.fragment_spirv], desc.constants, options);
-        let inner = self.shared_pipeline(&asked, recipe, |layout| {
-            let vertex = Module::create(core, desc.name, desc.vertex_spirv)?;
-            let fragment = Module::create(core, desc.name, desc.fragment_spirv)?;
-            let values = Specialisation::new(desc.constants);
-            let specialisation = values.info();
-            let stages = [
-                vertex.stage(vk::ShaderStageFlags::VERTEX, &specialisation),
-                fragment.stage(vk::ShaderStageFlags::FRAGMENT, &specialisation),
-            ];
-            let vertex_input = vk::PipelineVertexInputStateCreateInfo::default();
-            let assembly = vk::PipelineInputAssemblyStateCreateInfo::default()
-                .topology(vk::PrimitiveTopology::TRIANGLE_LIST);
-            let viewport = vk::PipelineViewportStateCreateInfo::default().viewport_count(1).scissor_count(1);
-            let mut conservative = vk::PipelineRasterizationConservativeStateCreateInfoEXT::default()
-                .conservative_rasterization_mode(vk::ConservativeRasterizationModeEXT::OVERESTIMATE);
-            let mut rasterization = vk::PipelineRasterizationStateCreateInfo::default()
-                .polygon_mode(vk::PolygonMode::FILL)
-                .cull_mode(vk::CullModeFlags::NONE)
-                .front_face(vk::FrontFace::COUNTER_CLOCKWISE)
-                .line_width(1.0);
-            if options.conservative {
-                rasterization = rasterization.push_next(&mut conservative);
-            }
-            let multisample = vk::PipelineMultisampleStateCreateInfo::default()
-                .rasterization_samples(vk::SampleCountFlags::TYPE_1);
-            let depth_stencil = vk::PipelineDepthStencilStateCreateInfo::default();
-            let blend = vk::PipelineColorBlendStateCreateInfo::default();
-            let dynamic = [vk::DynamicState::VIEWPORT, vk::DynamicState::SCISSOR];
-            let dynamic = vk::PipelineDynamicStateCreateInfo::default().dynamic_states(&dynamic);
-            let mut rendering = vk::PipelineRenderingCreateInfo::default().view_mask(options.view_mask);
-            let info = vk::GraphicsPipelineCreateInfo::default()
-                .stages(&stages)
-                .vertex_input_state(&vertex_input)
-                .input_assembly_state(&assembly)
-                .viewport_state(&viewport)
-                .rasterization_state(&rasterization)
-                .multisample_state(&multisample)
-                .depth_stencil_state(&depth_stencil)
-                .color_blend_state(&blend)
-                .dynamic_state(&dynamic)
-                .layout(layout)
-                .push_next(&mut rendering);
-            // SAFETY: as for compute pipelines; the features for dynamic rendering and the options were
-            // checked.
-            let made = unsafe { core.device.create_graphics_pipelines(core.pipeline_cache, &[info], None) };
-            first_pipeline(core, made, "vkCreateGraphicsPipelines", desc.name)
-        })?;
+        let modules = [desc.vertex_spirv, desc.fragment_spirv];
+        let recipe = asked.recipe(&modules, desc.constants, options);
+        let inner =
+            self.shared_pipeline(&asked, modules, recipe, |layout, [vertex_spirv, fragment_spirv]| {
+                let vertex = Module::create(core, desc.name, vertex_spirv)?;
+                let fragment = Module::create(core, desc.name, fragment_spirv)?;
+                let values = Specialisation::new(desc.constants);
+                let specialisation = values.info();
+                let stages = [
+                    vertex.stage(vk::ShaderStageFlags::VERTEX, &specialisation),
+                    fragment.stage(vk::ShaderStageFlags::FRAGMENT, &specialisation),
+                ];
+                let vertex_input = vk::PipelineVertexInputStateCreateInfo::default();
+                let assembly = vk::PipelineInputAssemblyStateCreateInfo::default()
+                    .topology(vk::PrimitiveTopology::TRIANGLE_LIST);
+                let viewport =
+                    vk::PipelineViewportStateCreateInfo::default().viewport_count(1).scissor_count(1);
+                let mut conservative = vk::PipelineRasterizationConservativeStateCreateInfoEXT::default()
+                    .conservative_rasterization_mode(vk::ConservativeRasterizationModeEXT::OVERESTIMATE);
+                let mut rasterization = vk::PipelineRasterizationStateCreateInfo::default()
+                    .polygon_mode(vk::PolygonMode::FILL)
+                    .cull_mode(vk::CullModeFlags::NONE)
+                    .front_face(vk::FrontFace::COUNTER_CLOCKWISE)
+                    .line_width(1.0);
+                if options.conservative {
+                    rasterization = rasterization.push_next(&mut conservative);
+                }
+                let multisample = vk::PipelineMultisampleStateCreateInfo::default()
+                    .rasterization_samples(vk::SampleCountFlags::TYPE_1);
+                let depth_stencil = vk::PipelineDepthStencilStateCreateInfo::default();
+                let blend = vk::PipelineColorBlendStateCreateInfo::default();
+                let dynamic = [vk::DynamicState::VIEWPORT, vk::DynamicState::SCISSOR];
+                let dynamic = vk::PipelineDynamicStateCreateInfo::default().dynamic_states(&dynamic);
+                let mut rendering = vk::PipelineRenderingCreateInfo::default().view_mask(options.view_mask);
+                let info = vk::GraphicsPipelineCreateInfo::default()
+                    .stages(&stages)
+                    .vertex_input_state(&vertex_input)
+                    .input_assembly_state(&assembly)
+                    .viewport_state(&viewport)
+                    .rasterization_state(&rasterization)
+                    .multisample_state(&multisample)
+                    .depth_stencil_state(&depth_stencil)
+                    .color_blend_state(&blend)
+                    .dynamic_state(&dynamic)
+                    .layout(layout)
+                    .push_next(&mut rendering);
+                // SAFETY: as for compute pipelines; the features for dynamic rendering and the options were
+                // checked.
+                let made =
+                    unsafe { core.device.create_graphics_pipelines(core.pipeline_cache, &[info], None) };
+                first_pipeline(core, made, "vkCreateGraphicsPipelines", desc.name)
+            })?;
         Ok(RasterPipeline { inner })
     }
 
@@ -197,12 +202,14 @@ impl Device {
         self.core.pipelines.keep(self.core.usable_device(), count);
     }
 
-    /// Returns the pipeline that was made by the recipe before, or makes it with `compile`.
-    fn shared_pipeline(
+    /// Returns the pipeline that was made by the recipe before, or makes it with `compile` from what of its
+    /// modules runs.
+    fn shared_pipeline<const N: usize>(
         &self,
         asked: &PipelineRequest<'_>,
+        modules: [&[u32]; N],
         recipe: Recipe,
-        compile: impl FnOnce(vk::PipelineLayout) -> Result<vk::Pipeline>,
+        compile: impl FnOnce(vk::PipelineLayout, [&[u32]; N]) -> Result<vk::Pipeline>,
     ) -> Result<Arc<PipelineInner>> {
         let core = &self.core;
         self.check_pipeline(asked)?;
@@ -210,9 +217,11 @@ impl Device {
         let (recipe, made) = match core.pipelines.find(&recipe) {
             Some(found) => found,
             None => {
-                let used = self.used_bindings(asked, &recipe)?;
+                let modules = modules.map(|words| specialised(words, &recipe.constants));
+                let modules = modules.each_ref().map(Vec::as_slice);
+                let used = self.used_bindings(asked, &modules)?;
                 let layout = Layout::create(core, asked, &used)?;
-                let raw = compile(layout.raw)?;
+                let raw = compile(layout.raw, modules)?;
                 core.name_object(raw, asked.name);
                 let made = PipelineObjects { raw, layout: layout.into_raw(), used };
                 core.pipelines.insert(&core.device, recipe, made)
@@ -234,11 +243,11 @@ impl Device {
     }
 
     /// Returns the masks of the bindings of each set that the modules of a pipeline use.
-    fn used_bindings(&self, asked: &PipelineRequest<'_>, recipe: &Recipe) -> Result<Arc<[Mask]>> {
+    fn used_bindings(&self, asked: &PipelineRequest<'_>, modules: &[&[u32]]) -> Result<Arc<[Mask]>> {
         let name = asked.name;
         let mut used = vec![0; asked.sets.len()];
-        for module in &recipe.modules {
-            let of_module = used_bindings(name, module)?;
+        for module in modules {
+            let of_module = used_bindings(module).map_err(|error| GpuError::of_shader(name, error))?;
             for (set, mask) in of_module.into_iter().enumerate().filter(|(_, mask)| *mask != 0) {
                 let known = asked.sets.get(set).map_or(0, |layout| layout.storage_buffers());
                 let binding = Mask::BITS - 1 - mask.leading_zeros();

@@ -3,8 +3,7 @@
 use ash::vk;
 
 use crate::device_core::Core;
-use crate::error::{During, Result};
-use crate::spirv::check_header;
+use crate::error::{During, GpuError, Result};
 
 /// A shader module that exists only until its pipeline is made.
 pub(crate) struct Module<'a> {
@@ -14,7 +13,7 @@ pub(crate) struct Module<'a> {
 
 impl<'a> Module<'a> {
     pub(crate) fn create(core: &'a Core, name: &str, spirv: &[u32]) -> Result<Self> {
-        check_header(name, spirv)?;
+        rasray_spirv::check_header(spirv).map_err(|error| GpuError::of_shader(name, error))?;
         let info = vk::ShaderModuleCreateInfo::default().code(spirv);
         // SAFETY: the header of the words is that of a module; the shader compiler guarantees the rest.
         let raw =

@@ -29,8 +29,6 @@
 //! }
 //! ```
 
-mod reduce;
-
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
@@ -39,7 +37,7 @@ use shaderc::{
     SourceLanguage, TargetEnv,
 };
 
-pub use reduce::without_debug_text;
+pub use rasray_spirv::without_debug_text;
 
 /// Reason for which a module was not compiled.
 #[derive(Debug, thiserror::Error)]
@@ -91,7 +89,7 @@ pub fn compile(roots: &[impl AsRef<Path>], module: &Module<'_>) -> Result<Vec<u3
     let artifact = compiler()?
         .compile_into_spirv(&source, kind, module.entry, "main", Some(&options(roots, module)?))
         .map_err(|error| CompileError::Glsl(error.to_string()))?;
-    Ok(reduce::only_reached(artifact.as_binary()))
+    Ok(rasray_spirv::only_reached(artifact.as_binary()))
 }
 
 /// Expands includes and macros in the text of a module, after a line of options. The result is everything

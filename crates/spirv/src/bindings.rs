@@ -1,30 +1,41 @@
-//! Analysis of SPIR-V modules: the descriptor bindings that they use.
+//! The descriptor bindings that modules use.
 
 use std::collections::HashMap;
 
-use crate::error::{GpuError, Result};
+use crate::instruction::{HEADER_WORDS, op};
 
 const MAGIC: u32 = 0x0723_0203;
-const HEADER_WORDS: usize = 5;
-const OP_FUNCTION: u32 = 54;
-const OP_FUNCTION_END: u32 = 56;
-const OP_DECORATE: u32 = 71;
 const DECORATION_BINDING: u32 = 33;
 const DECORATION_DESCRIPTOR_SET: u32 = 34;
+
+/// Words are not a module of SPIR-V.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct NotAModule {
+    /// Fault of the words.
+    pub reason: &'static str,
+}
+
+impl std::fmt::Display for NotAModule {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(formatter, "no SPIR-V module: {}", self.reason)
+    }
+}
+
+impl std::error::Error for NotAModule {}
 
 /// Returns the bindings of each set, from set 0 up, that the functions of a module name: one bit per binding.
 /// A set layout with only these bindings suffices for the module, which matters if a device lets a stage
 /// access few buffers.
 ///
 /// # Errors
-/// [`GpuError::InvalidShader`] for words that are not a module, and for bindings beyond 63.
-pub(crate) fn used_bindings(name: &str, spirv: &[u32]) -> Result<Vec<u64>> {
-    let invalid = |reason| GpuError::InvalidShader { name: name.to_owned(), reason };
-    check_header(name, spirv)?;
+/// Words that are not a module, and bindings beyond 63.
+pub fn used_bindings(words: &[u32]) -> Result<Vec<u64>, NotAModule> {
+    let invalid = |reason| NotAModule { reason };
+    check_header(words)?;
     let mut places: HashMap<u32, [Option<u32>; 2]> = HashMap::new();
     let mut used = Vec::new();
     let mut in_function = false;
-    let mut rest = &spirv[HEADER_WORDS..];
+    let mut rest = &words[HEADER_WORDS..];
     while let [first, ..] = rest {
         let (operation, length) = (first & 0xffff, (first >> 16) as usize);
         if length == 0 || length > rest.len() {
@@ -33,12 +44,12 @@ pub(crate) fn used_bindings(name: &str, spirv: &[u32]) -> Result<Vec<u64>> {
         let (instruction, after) = rest.split_at(length);
         rest = after;
         match (operation, instruction) {
-            (OP_FUNCTION, _) => in_function = true,
-            (OP_FUNCTION_END, _) => in_function = false,
-            (OP_DECORATE, [_, variable, DECORATION_DESCRIPTOR_SET, set]) => {
+            (op::FUNCTION, _) => in_function = true,
+            (op::FUNCTION_END, _) => in_function = false,
+            (op::DECORATE, [_, variable, DECORATION_DESCRIPTOR_SET, set]) => {
                 places.entry(*variable).or_default()[0] = Some(*set);
             }
-            (OP_DECORATE, [_, variable, DECORATION_BINDING, binding]) => {
+            (op::DECORATE, [_, variable, DECORATION_BINDING, binding]) => {
                 places.entry(*variable).or_default()[1] = Some(*binding);
             }
             // Decorations precede functions. A literal that happens to equal an id only adds a binding to the
@@ -66,30 +77,30 @@ pub(crate) fn used_bindings(name: &str, spirv: &[u32]) -> Result<Vec<u64>> {
 /// one stage access.
 ///
 /// # Errors
-/// [`GpuError::InvalidShader`] for words that are not a module.
-pub fn storage_buffers_used(name: &str, spirv: &[u32]) -> Result<u32> {
-    Ok(used_bindings(name, spirv)?.iter().map(|used| used.count_ones()).sum())
+/// Words that are not a module.
+pub fn storage_buffers_used(words: &[u32]) -> Result<u32, NotAModule> {
+    Ok(used_bindings(words)?.iter().map(|used| used.count_ones()).sum())
 }
 
 /// Checks that the words begin with the header of a module.
 ///
 /// # Errors
-/// [`GpuError::InvalidShader`].
-pub(crate) fn check_header(name: &str, spirv: &[u32]) -> Result<()> {
-    let reason = match spirv {
-        [MAGIC, ..] if spirv.len() > HEADER_WORDS => return Ok(()),
+/// They do not.
+pub fn check_header(words: &[u32]) -> Result<(), NotAModule> {
+    let reason = match words {
+        [MAGIC, ..] if words.len() > HEADER_WORDS => return Ok(()),
         [MAGIC, ..] => "it ends within its header",
         [first, ..] if first.swap_bytes() == MAGIC => "its byte order is reversed",
         _ => "its first word is not the SPIR-V number",
     };
-    Err(GpuError::InvalidShader { name: name.to_owned(), reason })
+    Err(NotAModule { reason })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    const fn op(length: u32, operation: u32) -> u32 {
+    const fn word(length: u32, operation: u32) -> u32 {
         length << 16 | operation
     }
 
@@ -98,18 +109,18 @@ mod tests {
     fn module(operands: &[u32]) -> Vec<u32> {
         let mut words = vec![MAGIC, 0x0001_0500, 0, 20, 0];
         for (id, set, binding) in [(10, 0, 1), (11, 2, 0), (12, 2, 3)] {
-            words.extend([op(4, OP_DECORATE), id, DECORATION_DESCRIPTOR_SET, set]);
-            words.extend([op(4, OP_DECORATE), id, DECORATION_BINDING, binding]);
+            words.extend([word(4, op::DECORATE), id, DECORATION_DESCRIPTOR_SET, set]);
+            words.extend([word(4, op::DECORATE), id, DECORATION_BINDING, binding]);
         }
-        words.extend([op(5, OP_FUNCTION), 1, 2, 0, 3, op(1 + operands.len() as u32, 65)]);
+        words.extend([word(5, op::FUNCTION), 1, 2, 0, 3, word(1 + operands.len() as u32, 65)]);
         words.extend(operands);
-        words.push(op(1, OP_FUNCTION_END));
+        words.push(word(1, op::FUNCTION_END));
         words
     }
 
     #[test]
     fn only_what_functions_name_is_used() {
-        let of = |operands: &[u32]| used_bindings("a", &module(operands)).expect("a module");
+        let of = |operands: &[u32]| used_bindings(&module(operands)).expect("a module");
         assert_eq!(of(&[7, 8]), []);
         assert_eq!(of(&[10]), [0b10]);
         assert_eq!(of(&[12, 10, 11]), [0b10, 0, 0b1001]);
@@ -120,11 +131,11 @@ mod tests {
         let mut cut = module(&[10, 11, 12]);
         cut.truncate(cut.len() - 2);
         let mut endless = module(&[]);
-        endless[HEADER_WORDS] = op(0, OP_DECORATE);
+        endless[HEADER_WORDS] = word(0, op::DECORATE);
         let mut beyond = module(&[10]);
         beyond[HEADER_WORDS + 7] = 64;
         for words in [&[][..], &[MAGIC], &cut, &endless, &beyond] {
-            assert!(matches!(used_bindings("a", words), Err(GpuError::InvalidShader { .. })), "{words:x?}");
+            assert!(used_bindings(words).is_err(), "{words:x?}");
         }
     }
 }

@@ -1,0 +1,51 @@
+//! Every module as pipelines hand it to a driver: without what its constants switch off, held against
+//! SPIR-V's own validator.
+
+use std::io::Write;
+use std::process::{Command, Stdio};
+
+use rasray_shaders_glsl as shaders;
+use rasray_spirv::{specialised, without_debug_text};
+
+/// Returns the fault that the validator finds in a module.
+fn fault(words: &[u32]) -> Option<String> {
+    let mut validator = Command::new("spirv-val")
+        .args(["--target-env", "vulkan1.2", "--scalar-block-layout", "-"])
+        .stdin(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("spirv-val runs (tools/setup test)");
+    validator.stdin.take().expect("a pipe").write_all(bytemuck::cast_slice(words)).expect("it reads");
+    let done = validator.wait_with_output().expect("it ends");
+    (!done.status.success()).then(|| String::from_utf8_lossy(&done.stderr).into_owned())
+}
+
+/// Constants have many ids and few values; each module has some of them.
+#[test]
+fn modules_are_valid_without_what_constants_switch_off() {
+    let all_are = |bits: u32| -> Vec<(u32, u32)> { (0..256).map(|id| (id, bits)).collect() };
+    let every = [Vec::new(), all_are(0), all_are(1)];
+    for shader in shaders::ALL {
+        let module = shader.words();
+        let mut checked = Vec::new();
+        for constants in &every {
+            let left = specialised(&module, constants);
+            // Text for people takes the validator longer than the module.
+            let bare = without_debug_text(&left);
+            if !checked.contains(&bare) {
+                assert_eq!(fault(&bare), None, "{} with {:?}", shader.name, constants.first());
+                assert_eq!(specialised(&left, constants), left, "{}", shader.name);
+                checked.push(bare);
+            }
+        }
+    }
+}
+
+/// A path's step has a switch for every feature that a scene may have.
+#[test]
+fn switches_that_are_off_leave_half_of_a_path_s_step() {
+    let module = without_debug_text(&shaders::INTEGRATORS_PATH_SHADE_HITS.words());
+    let all_off: Vec<(u32, u32)> = (0..256).map(|id| (id, 0)).collect();
+    let left = specialised(&module, &all_off).len();
+    assert!(left * 10 < module.len() * 6, "{left} of {} words", module.len());
+}
