@@ -4,7 +4,7 @@
 //! since they are more than half of all bytes. `RASRAY_SHADER_CACHE` names a folder that builds of several
 //! profiles share, so that a module is compiled once for all of them.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
@@ -21,6 +21,7 @@ pub(crate) fn modules(root: &Path, out: &Path) -> Result<Vec<Built>, String> {
     println!("cargo::rerun-if-env-changed=RASRAY_SHADER_CACHE");
     let list = read(&root.join("permutations.txt"))?;
     let mut permutations = read_permutations(&list).map_err(|e| format!("permutations.txt: {e}"))?;
+    check_features(&permutations, &read(&root.join("Cargo.toml"))?)?;
     permutations.retain(|permutation| permutation.features.iter().all(|feature| feature_is_on(feature)));
     compile_all(root, out, &permutations)?;
     let built = permutations.into_iter().map(|Permutation { name, entry, features, .. }| Built {
@@ -29,6 +30,19 @@ pub(crate) fn modules(root: &Path, out: &Path) -> Result<Vec<Built>, String> {
         features,
     });
     Ok(built.collect())
+}
+
+/// Refuses a module of a feature that the manifest does not have: nothing could ever turn it on.
+fn check_features(permutations: &[Permutation], manifest: &str) -> Result<(), String> {
+    let rows = manifest.lines().skip_while(|line| *line != "[features]").skip(1);
+    let rows = rows.take_while(|line| !line.starts_with('['));
+    let known: BTreeSet<&str> = rows.filter_map(|line| Some(line.split_once('=')?.0.trim())).collect();
+    for Permutation { name, features, .. } in permutations {
+        if let Some(unknown) = features.iter().find(|feature| !known.contains(feature.as_str())) {
+            return Err(format!("permutations.txt: {name}: Cargo.toml has no feature `{unknown}`"));
+        }
+    }
+    Ok(())
 }
 
 /// Compiles modules on as many threads as cargo grants. The error describes the first module of the list that

@@ -42,8 +42,8 @@ pub enum AdsError {
     },
     /// A pool needs more elements than its indices can address.
     #[error(
-        "{structure}: pool `{pool}` needs {elements} elements, more than its 32-bit indices can address; lower the \
-         resolution or split the scene"
+        "{structure}: pool `{pool}` needs {elements} elements, of which at most {limit} can be addressed; lower the \
+         structure's resolution, where it has one, or split the scene"
     )]
     PoolTooLarge {
         /// Name of the structure.
@@ -52,6 +52,8 @@ pub enum AdsError {
         pool: &'static str,
         /// Number of elements needed.
         elements: u64,
+        /// Greatest number of elements of this pool.
+        limit: u64,
     },
     /// Sizes name other pools than the structure has.
     #[error(

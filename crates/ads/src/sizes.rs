@@ -41,11 +41,15 @@ impl Sizes {
             element_bytes,
         };
         let pools: Vec<_> = [header].into_iter().chain(pools.into_iter().map(named)).collect();
-        let is_too_large = |pool: &&PoolSize| {
-            pool.elements.saturating_mul(pool.element_bytes.div_ceil(4)) >= u64::from(u32::MAX)
-        };
-        match pools.iter().find(is_too_large) {
-            Some(pool) => Err(AdsError::PoolTooLarge { structure, pool: pool.name, elements: pool.elements }),
+        // Words have numbers below the largest, which means "none" or "more".
+        let limit = |pool: &PoolSize| u64::from(u32::MAX - 1) / pool.element_bytes.div_ceil(4).max(1);
+        match pools.iter().find(|pool| pool.elements > limit(pool)) {
+            Some(pool) => Err(AdsError::PoolTooLarge {
+                structure,
+                pool: pool.name,
+                elements: pool.elements,
+                limit: limit(pool),
+            }),
             None => Ok(Self { pools }),
         }
     }
@@ -57,8 +61,9 @@ impl Sizes {
     /// There are more pages than [`PAGE_LIMIT`].
     pub fn of_pages(self, structure: &'static str, pool: impl PoolName) -> Result<Self, AdsError> {
         let elements = self.elements_of(pool);
-        if elements > PAGE_LIMIT.into() {
-            return Err(AdsError::PoolTooLarge { structure, pool: pool.name(), elements });
+        let limit = PAGE_LIMIT.into();
+        if elements > limit {
+            return Err(AdsError::PoolTooLarge { structure, pool: pool.name(), elements, limit });
         }
         Ok(self)
     }

@@ -94,8 +94,9 @@ fn pairs(config: &Config, triangles: u64) -> u64 {
 /// An option is out of range, or there are more triangles than a leaf's 27 bits can address.
 pub fn plan(config: &Config, triangles: u64) -> Result<Sizes, AdsError> {
     config.validate()?;
-    if triangles >= 1 << BVH_LEAF_SHIFT {
-        return Err(AdsError::PoolTooLarge { structure: NAME, pool: "records", elements: triangles });
+    let limit = (1 << BVH_LEAF_SHIFT) - 1;
+    if triangles > limit {
+        return Err(AdsError::PoolTooLarge { structure: NAME, pool: "records", elements: triangles, limit });
     }
     let nodes = most_nodes(config.made_children(), triangles) + pair_elements(config, triangles);
     let pool = |pool, elements, bytes: usize| (pool, elements, bytes as u64);

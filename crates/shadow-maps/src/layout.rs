@@ -42,8 +42,9 @@ pub(crate) fn views_of_emitters(config: &Config, emitters: u32) -> u64 {
 /// The number does not fit into 32 bits.
 pub(crate) fn texel_count(config: &Config, views: u64) -> Result<u64, AdsError> {
     let elements = u64::from(config.resolution).pow(2) * views;
-    if elements > u64::from(u32::MAX) {
-        return Err(AdsError::PoolTooLarge { structure: "shadow-maps", pool: "texels", elements });
+    let limit = u32::MAX.into();
+    if elements > limit {
+        return Err(AdsError::PoolTooLarge { structure: "shadow-maps", pool: "texels", elements, limit });
     }
     Ok(elements)
 }

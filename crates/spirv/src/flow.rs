@@ -78,7 +78,7 @@ impl<'a> Block<'a> {
         match (operation(terminator), terminator) {
             (op::BRANCH, [_, target]) => vec![*target],
             (op::BRANCH_CONDITIONAL, [_, _, yes, no, ..]) => vec![*yes, *no],
-            // The numbers of the cases are taken for labels, too. One that is a label keeps a block without need.
+            // The numbers of cases are taken for labels, too. One that is a label keeps a block in vain.
             (op::SWITCH, [_, _, targets @ ..]) => targets.to_vec(),
             _ => Vec::new(),
         }

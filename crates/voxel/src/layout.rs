@@ -41,8 +41,9 @@ pub fn plan(config: &Config, demand: Demand) -> Result<Sizes, AdsError> {
         Traversal::Dda => (0, 0),
         Traversal::Octree => (demand.nodes, upper_nodes(config) + Scan::sums(upper_nodes(config))),
     };
-    if nodes > VOXEL_NODE_LIMIT.into() {
-        return Err(AdsError::PoolTooLarge { structure: "voxel", pool: "nodes", elements: nodes });
+    let limit = VOXEL_NODE_LIMIT.into();
+    if nodes > limit {
+        return Err(AdsError::PoolTooLarge { structure: "voxel", pool: "nodes", elements: nodes, limit });
     }
     let sizes = [
         (Pool::Voxels, voxels.div_ceil(8), 4),

@@ -192,7 +192,15 @@ mod tests {
         of(false, wrapped(|| GpuError::DeviceLost { call: "vkQueueSubmit", during: "trace".to_owned() }));
         of(false, wrapped(|| GpuError::TooLarge { name: name(), size: 9, limit: 8 }));
         of(false, wrapped(|| AdsError::NoFirstHits { structure: bvh }));
-        of(false, wrapped(|| AdsError::PoolTooLarge { structure: bvh, pool: "nodes", elements: 1 << 33 }));
+        of(
+            false,
+            wrapped(|| AdsError::PoolTooLarge {
+                structure: bvh,
+                pool: "nodes",
+                elements: 1 << 33,
+                limit: 1 << 27,
+            }),
+        );
         of(false, wrapped(|| AdsError::Damaged { structure: bvh, fault: "a loop".to_owned() }));
 
         of(true, vec![IntegratorError::NotListed.into(), TracerError::Busy { slots: 2 }.into()]);
