@@ -22,11 +22,12 @@ pub const FRAMES: usize = 2;
 pub struct Host {
     _entry: ash::Entry,
     instance: ash::Instance,
-    watcher: ash::ext::debug_utils::Instance,
-    messenger: vk::DebugUtilsMessengerEXT,
+    /// Messenger of the validation layer, where the layer is installed.
+    watcher: Option<(ash::ext::debug_utils::Instance, vk::DebugUtilsMessengerEXT)>,
     log: Box<ValidationLog>,
     physical: vk::PhysicalDevice,
     pub device: ash::Device,
+    api_version: u32,
     queue: vk::Queue,
     family: u32,
     /// True if buffers have device addresses.
@@ -63,13 +64,21 @@ impl Host {
             let entry = ash::Entry::load()?;
             let application = vk::ApplicationInfo::default().api_version(vk::API_VERSION_1_3);
             let info = vk::InstanceCreateInfo::default().application_info(&application);
+            let layers = entry.enumerate_instance_layer_properties()?;
+            let is_watched = layers.iter().any(|layer| layer.layer_name_as_c_str() == Ok(VALIDATION));
             let (layers, extensions) = ([VALIDATION.as_ptr()], [ash::ext::debug_utils::NAME.as_ptr()]);
-            let info = info.enabled_layer_names(&layers).enabled_extension_names(&extensions);
-            let instance = entry.create_instance(&info, None)?;
-            let watcher = ash::ext::debug_utils::Instance::new(&entry, &instance);
+            let watched = info.enabled_layer_names(&layers).enabled_extension_names(&extensions);
+            let instance = entry.create_instance(if is_watched { &watched } else { &info }, None)?;
             // Messages of the validation layer; boxed, because the log must keep its address.
             let log = Box::<ValidationLog>::default();
-            let messenger = watcher.create_debug_utils_messenger(&log.messenger(), None)?;
+            let watcher = if is_watched {
+                let watcher = ash::ext::debug_utils::Instance::new(&entry, &instance);
+                let messenger = watcher.create_debug_utils_messenger(&log.messenger(), None)?;
+                Some((watcher, messenger))
+            } else {
+                eprintln!("the validation layer is not installed: calls are not checked");
+                None
+            };
             let physical = *instance.enumerate_physical_devices()?.first().ok_or("no Vulkan device")?;
             let mut wanted = vk::QueueFlags::COMPUTE;
             if draws {
@@ -86,14 +95,23 @@ impl Host {
             let mut features_12 = vk::PhysicalDeviceVulkan12Features::default()
                 .scalar_block_layout(has(Feature::ScalarBlockLayout))
                 .buffer_device_address(has(Feature::BufferDeviceAddress));
-            let mut features_13 = vk::PhysicalDeviceVulkan13Features::default()
-                .synchronization2(has(Feature::Synchronization2))
-                .dynamic_rendering(draws);
+            let mut synchronization = vk::PhysicalDeviceSynchronization2Features::default()
+                .synchronization2(has(Feature::Synchronization2));
+            let mut rendering =
+                vk::PhysicalDeviceDynamicRenderingFeatures::default().dynamic_rendering(draws);
+            // Extensions of Vulkan 1.2 that 1.3 has without a name.
+            let version = instance.get_physical_device_properties(physical).api_version;
+            let api_version = version.min(vk::API_VERSION_1_3);
+            let mut names = Vec::new();
+            if api_version < vk::API_VERSION_1_3 {
+                names.push(ash::khr::synchronization2::NAME.as_ptr());
+                names.extend(draws.then_some(ash::khr::dynamic_rendering::NAME.as_ptr()));
+            }
             // Features of ray queries, if a structure asks for them.
             let mut trees =
                 vk::PhysicalDeviceAccelerationStructureFeaturesKHR::default().acceleration_structure(true);
             let mut queries = vk::PhysicalDeviceRayQueryFeaturesKHR::default().ray_query(true);
-            let names = [
+            let names_of_queries = [
                 ash::khr::acceleration_structure::NAME.as_ptr(),
                 ash::khr::deferred_host_operations::NAME.as_ptr(),
                 ash::khr::ray_query::NAME.as_ptr(),
@@ -102,10 +120,15 @@ impl Host {
                 .queue_create_infos(&queues)
                 .enabled_features(&core)
                 .push_next(&mut features_12)
-                .push_next(&mut features_13);
-            if has(Feature::RayQuery) {
-                info = info.enabled_extension_names(&names).push_next(&mut trees).push_next(&mut queries);
+                .push_next(&mut synchronization);
+            if draws {
+                info = info.push_next(&mut rendering);
             }
+            if has(Feature::RayQuery) {
+                names.extend(names_of_queries);
+                info = info.push_next(&mut trees).push_next(&mut queries);
+            }
+            let info = info.enabled_extension_names(&names);
             let device = instance.create_device(physical, &info, None)?;
             let queue = device.get_device_queue(family, 0);
             let info = vk::CommandPoolCreateInfo::default()
@@ -124,10 +147,10 @@ impl Host {
                 _entry: entry,
                 instance,
                 watcher,
-                messenger,
                 log,
                 physical,
                 device,
+                api_version,
                 queue,
                 family,
                 addresses: has(Feature::BufferDeviceAddress),
@@ -146,7 +169,7 @@ impl Host {
             device: self.device.clone(),
             queue: self.queue,
             queue_family: self.family,
-            api_version: vk::API_VERSION_1_3,
+            api_version: self.api_version,
             enabled: enabled.to_vec(),
             // The validation layer may be older than 1.3.242, with which labels are not allowed.
             debug_utils: false,
@@ -371,7 +394,9 @@ impl Drop for Host {
             }
             self.device.destroy_command_pool(self.pool, None);
             self.device.destroy_device(None);
-            self.watcher.destroy_debug_utils_messenger(self.messenger, None);
+            if let Some((watcher, messenger)) = &self.watcher {
+                watcher.destroy_debug_utils_messenger(*messenger, None);
+            }
             self.instance.destroy_instance(None);
         }
     }
