@@ -48,7 +48,7 @@ uvec2 abuffer_pyramid_fragments(AbufferRef s, uint view, ivec2 cell) {
         return uvec2(0u);
     }
     float reach = ABUFFER_ACCEPT == ABUFFER_ACCEPT_THICKNESS ? ABUFFER_HEADER(s).thickness : bounds.extent;
-    reach += 4.8e-7 * (bounds.z_max + reach) + ABUFFER_HEADER(s).rounding;
+    reach += 8.0 * FLOAT_ROUNDING * (bounds.z_max + reach) + ABUFFER_HEADER(s).rounding;
     // Depths are kept as integers that order like them, which holds from zero on.
     float lower = bounds.z_min > reach ? bounds.z_min - reach : 0.0;
     return uvec2(~floatBitsToUint(lower), floatBitsToUint(bounds.z_max + reach));

@@ -15,7 +15,7 @@
 // for.
 vec2 abuffer_skip_depths(float origin_z, float direction_z, float t_low, float t_high) {
     vec2 z = origin_z + vec2(t_low, t_high) * direction_z;
-    float rounding = 9.6e-7 * (abs(origin_z) + max(abs(t_low), abs(t_high)) * abs(direction_z));
+    float rounding = 16.0 * FLOAT_ROUNDING * (abs(origin_z) + max(abs(t_low), abs(t_high)) * abs(direction_z));
     // Negative depths count as zero.
     return vec2(min(z.x, z.y) - rounding, max(max(z.x, z.y) + rounding, 0.0));
 }

@@ -140,7 +140,7 @@ void abuffer_begin_search(AbufferRef s, bool begun, inout AbufferTraversal trave
     vec2 z = traversal.origin.z + vec2(search.t_low, search.t_high) * traversal.direction.z;
     search.z = vec2(min(z.x, z.y), max(z.x, z.y));
     search.rounding = ABUFFER_HEADER(s).rounding
-        + 4.8e-7 * (abs(traversal.origin.z) + max(abs(search.t_low), abs(search.t_high)) * abs(traversal.direction.z));
+        + 8.0 * FLOAT_ROUNDING * (abs(traversal.origin.z) + max(abs(search.t_low), abs(search.t_high)) * abs(traversal.direction.z));
 }
 
 // Goes to the next cell; false at the end of the segment.

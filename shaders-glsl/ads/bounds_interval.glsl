@@ -3,6 +3,8 @@
 #ifndef ADS_BOUNDS_INTERVAL_GLSL
 #define ADS_BOUNDS_INTERVAL_GLSL
 
+#include "contract/constants.glsl"
+
 // Returns the part of [t_min, t_max] in which the ray is inside the bounds; empty if x > y. Corners and
 // origin are relative to one point.
 vec2 bounds_interval(vec3 lower, vec3 upper, vec3 origin, vec3 direction, float t_min, float t_max) {
@@ -16,7 +18,7 @@ vec2 bounds_interval(vec3 lower, vec3 upper, vec3 origin, vec3 direction, float 
         }
         float ta = (lower[axis] - o) / d;
         float tb = (upper[axis] - o) / d;
-        float widening = 9.6e-7 * max(abs(ta), abs(tb));
+        float widening = 16.0 * FLOAT_ROUNDING * max(abs(ta), abs(tb));
         interval.x = max(interval.x, min(ta, tb) - widening);
         interval.y = min(interval.y, max(ta, tb) + widening);
     }

@@ -40,7 +40,7 @@ float march_crossing(float boundary, float o, float d, float oz, float dz, int d
     }
     // Precise: stepping and skipping must compute the same bits.
     precise float t = numerator / denominator;
-    precise float bound = 6.0e-8 * (8.0 * abs(t) + (abs(boundary * oz) + abs(t * boundary * dz)) / abs(denominator));
+    precise float bound = FLOAT_ROUNDING * (8.0 * abs(t) + (abs(boundary * oz) + abs(t * boundary * dz)) / abs(denominator));
     error = bound;
     return t;
 }
@@ -59,11 +59,11 @@ uint march_touched(CellMarch m, float t, float t_error, bool along_x, bool along
     float size = max(max(abs(m.origin.x), abs(m.origin.y)), abs(m.origin.z));
     float speed = max(max(abs(m.direction.x), abs(m.direction.y)), abs(m.direction.z));
     precise vec3 p = m.origin + t * m.direction;
-    precise float guard = 9.6e-7 * (size + abs(t) * speed) + 2.0 * t_error * speed;
+    precise float guard = 16.0 * FLOAT_ROUNDING * (size + abs(t) * speed) + 2.0 * t_error * speed;
     if (!(abs(t) * speed < 1.0e30)) {
         // At infinity only the direction counts.
         p = m.direction;
-        guard = 9.6e-7 * speed;
+        guard = 16.0 * FLOAT_ROUNDING * speed;
     }
     uint columns = !along_x ? 2u : march_touching(cell_boundary(m.cell.x, m.resolution), cell_boundary(m.cell.x + 1, m.resolution), p.x, p.z, guard);
     uint rows = !along_y ? 2u : march_touching(cell_boundary(m.cell.y, m.resolution), cell_boundary(m.cell.y + 1, m.resolution), p.y, p.z, guard);
@@ -89,7 +89,7 @@ void march_find_exit(inout CellMarch m) {
     m.step_y = !m.step_x && y_inside && ty < m.t_end;
     float t = m.step_x ? tx : (m.step_y ? ty : m.t_end);
     m.t_out = max(t, m.t_in);
-    m.error_out = m.step_x ? error_x : (m.step_y ? error_y : 6.0e-8 * 16.0 * abs(m.t_end));
+    m.error_out = m.step_x ? error_x : (m.step_y ? error_y : FLOAT_ROUNDING * 16.0 * abs(m.t_end));
     uint touched = march_touched(m, m.t_out, m.error_out, !m.step_x, !m.step_y);
     m.neighbours |= touched;
     m.touched = touched;

@@ -77,7 +77,7 @@ Segment segment_at(vec3 origin, vec3 direction, float t, float t_max, vec2 near)
     middle = reach > 0.0 ? min(middle, t + abs(t) + reach) : middle;
     bool in_near = near.x <= middle && middle <= near.y;
     segment.face = in_near ? SEGMENT_NEAR : face_of(origin + middle * direction);
-    segment.t_error = 9.6e-7 * (abs(t) + reach);
+    segment.t_error = 16.0 * FLOAT_ROUNDING * (abs(t) + reach);
     return segment;
 }
 

@@ -27,7 +27,7 @@ uint grid_touched(GridMarch m, float t, int skip_axis) {
     ivec3 side = ivec3(0);
     float largest = max(max(abs(m.origin.x), abs(m.origin.y)), abs(m.origin.z));
     float speed = max(max(abs(m.direction.x), abs(m.direction.y)), abs(m.direction.z));
-    float guard = 9.6e-7 * (largest + abs(t) * speed) + 2.0 * m.t_error * speed;
+    float guard = 16.0 * FLOAT_ROUNDING * (largest + abs(t) * speed) + 2.0 * m.t_error * speed;
     for (int axis = 0; axis < 3; axis++) {
         float p = m.origin[axis] + t * m.direction[axis];
         if (axis != skip_axis) {
@@ -49,7 +49,7 @@ uint grid_touched(GridMarch m, float t, int skip_axis) {
 // the traversal, which is not a boundary.
 float grid_crossing_error(GridMarch m, float t, int axis) {
     float d = axis >= 0 ? abs(m.inverse[axis]) * abs(m.origin[axis]) : 0.0;
-    return 6.0e-8 * (8.0 * abs(t) + 2.0 * d);
+    return FLOAT_ROUNDING * (8.0 * abs(t) + 2.0 * d);
 }
 
 void grid_find_exit(inout GridMarch m) {
@@ -85,7 +85,7 @@ bool grid_begin(vec3 origin, vec3 direction, ivec3 size, float t_begin, float t_
     m.neighbours = 0u;
     float t0 = t_begin;
     float t1 = t_end;
-    float entry_slack = 9.6e-7 * abs(t_begin);
+    float entry_slack = 16.0 * FLOAT_ROUNDING * abs(t_begin);
     for (int axis = 0; axis < 3; axis++) {
         float d = direction[axis];
         float o = origin[axis];
@@ -98,7 +98,7 @@ bool grid_begin(vec3 origin, vec3 direction, ivec3 size, float t_begin, float t_
         m.inverse[axis] = 1.0 / d;
         float ta = (0.0 - o) * m.inverse[axis];
         float tb = (float(size[axis]) - o) * m.inverse[axis];
-        float slack = 6.0e-8 * (8.0 * max(abs(ta), abs(tb)) + 2.0 * abs(o * m.inverse[axis]));
+        float slack = FLOAT_ROUNDING * (8.0 * max(abs(ta), abs(tb)) + 2.0 * abs(o * m.inverse[axis]));
         entry_slack = min(ta, tb) - slack > t0 ? 2.0 * slack : entry_slack;
         t0 = max(t0, min(ta, tb) - slack);
         t1 = min(t1, max(ta, tb) + slack);

@@ -77,7 +77,7 @@ bool grid_take_skip_exactly(inout GridMarch m, uint level, out bool ended) {
     // The guard is twice that of grid_touched, with the largest error of all crossings up to the exit.
     float largest = max(max(abs(m.origin.x), abs(m.origin.y)), abs(m.origin.z));
     float speed = max(max(abs(m.direction.x), abs(m.direction.y)), abs(m.direction.z));
-    float guard = 2.0 * (9.6e-7 * (largest + max(abs(t), abs(m.t_out)) * speed) + 2.0 * error * speed);
+    float guard = 2.0 * (16.0 * FLOAT_ROUNDING * (largest + max(abs(t), abs(m.t_out)) * speed) + 2.0 * error * speed);
     // Each coordinate only grows or only falls: a side that is touched neither where the ray enters the next cell nor where
     // it is last in the block is not touched between.
     if (grid_touches_block(m, first, last, m.origin + m.t_out * m.direction, guard)) {

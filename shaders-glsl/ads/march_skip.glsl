@@ -39,7 +39,7 @@ MarchSkip march_skip_over(CellMarch m, ivec2 first, ivec2 last) {
     bool step_x = x_inside && tx <= ty && tx < m.t_end;
     bool step_y = !step_x && y_inside && ty < m.t_end;
     float t = step_x ? tx : (step_y ? ty : m.t_end);
-    float error_out = step_x ? error_x : (step_y ? error_y : 6.0e-8 * 16.0 * abs(m.t_end));
+    float error_out = step_x ? error_x : (step_y ? error_y : FLOAT_ROUNDING * 16.0 * abs(m.t_end));
     return MarchSkip(first, last, max(t, m.t_in), error_out, step_x, step_y);
 }
 
@@ -82,7 +82,7 @@ float march_skip_error(CellMarch m, ivec2 cell, float t) {
             vec2 turns = float(m.step_direction[axis]) * (m.direction[axis] - boundaries * m.direction.z);
             float slowest = min(turns.x, turns.y);
             float reach = max(abs(boundaries.x), abs(boundaries.y)) * (abs(m.origin.z) + abs(t * m.direction.z));
-            error = max(error, slowest > 0.0 ? 6.0e-8 * (8.0 * abs(t) + reach / slowest) : MARCH_INFINITY);
+            error = max(error, slowest > 0.0 ? FLOAT_ROUNDING * (8.0 * abs(t) + reach / slowest) : MARCH_INFINITY);
         }
     }
     return error;

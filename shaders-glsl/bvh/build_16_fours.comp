@@ -8,40 +8,40 @@
 layout(local_size_x = BVH_GROUP_SIZE) in;
 
 void main() {
-    number = bvh_invocation();
+    four_number = bvh_invocation();
     uint triangles = BVH_HEADER(build.structure).triangle_count;
     uint nodes = bvh_scratch(build.structure, number_word(triangles - 1u));
-    if (number == 0u) {
+    if (four_number == 0u) {
         BVH_HEADER(build.structure).node_count = nodes;
     }
-    if (number >= nodes) {
+    if (four_number >= nodes) {
         return;
     }
-    uint node = bvh_scratch(build.structure, list_word(number));
+    uint node = bvh_scratch(build.structure, list_word(four_number));
     uint openings = bvh_scratch(build.structure, openings_word(node));
     BvhNode top = bvh_node(build.structure, node);
     if (top.parent == BVH_NONE) {
-        BVH_HEADER(build.structure).root = number;
-        bvh_set_parent_of_four(build.structure, number, BVH_NONE);
+        BVH_HEADER(build.structure).root = four_number;
+        bvh_set_parent_of_four(build.structure, four_number, BVH_NONE);
     }
     for (uint slot = 0u; slot < 2u; slot++) {
         uint child = slot == 0u ? top.child_0 : top.child_1;
         if (!opens_child(openings, slot)) {
-            add(child, slot == 0u ? top.lower_0 : top.lower_1, slot == 0u ? top.upper_0 : top.upper_1);
+            four_add(child, slot == 0u ? top.lower_0 : top.lower_1, slot == 0u ? top.upper_0 : top.upper_1);
             continue;
         }
         BvhNode middle = bvh_node(build.structure, child);
         for (uint below = 0u; below < 2u; below++) {
             uint grandchild = below == 0u ? middle.child_0 : middle.child_1;
             if (!opens_grandchild(openings, slot, below)) {
-                add(grandchild, below == 0u ? middle.lower_0 : middle.lower_1,
+                four_add(grandchild, below == 0u ? middle.lower_0 : middle.lower_1,
                     below == 0u ? middle.upper_0 : middle.upper_1);
                 continue;
             }
             BvhNode lowest = bvh_node(build.structure, grandchild);
-            add(lowest.child_0, lowest.lower_0, lowest.upper_0);
-            add(lowest.child_1, lowest.lower_1, lowest.upper_1);
+            four_add(lowest.child_0, lowest.lower_0, lowest.upper_0);
+            four_add(lowest.child_1, lowest.lower_1, lowest.upper_1);
         }
     }
-    bvh_set_children_of_four(build.structure, number, children, lower_sides, upper_sides);
+    bvh_set_children_of_four(build.structure, four_number, four_children, four_lower, four_upper);
 }

@@ -7,34 +7,34 @@
 #include "bvh/fours.glsl"
 
 // Node of four that this invocation makes, and its children so far with their boxes, side by side.
-uint number;
-uint count = 0u;
-uvec4 children;
-mat3x4 lower_sides;
-mat3x4 upper_sides;
+uint four_number;
+uint four_count = 0u;
+uvec4 four_children;
+mat3x4 four_lower;
+mat3x4 four_upper;
 
 // Puts a child at a place.
-void put(uint place, uint reference, vec3 lower, vec3 upper) {
-    children[place] = reference;
+void four_put(uint place, uint reference, vec3 lower, vec3 upper) {
+    four_children[place] = reference;
     for (uint axis = 0u; axis < 3u; axis++) {
-        lower_sides[axis][place] = lower[axis];
-        upper_sides[axis][place] = upper[axis];
+        four_lower[axis][place] = lower[axis];
+        four_upper[axis][place] = upper[axis];
     }
 }
 
 // Adds a child of a node of two.
-void add(uint reference, vec3 lower, vec3 upper) {
+void four_add(uint reference, vec3 lower, vec3 upper) {
     if ((reference & BVH_LEAF) == 0u) {
         reference = bvh_scratch(build.structure, number_word(reference));
-        bvh_set_parent_of_four(build.structure, reference, BVH_FOUR * number + count);
+        bvh_set_parent_of_four(build.structure, reference, BVH_FOUR * four_number + four_count);
     }
     // Constant places stay in registers. The box of an absent child is that of the first, which changes no union.
     [[unroll]] for (uint place = 0u; place < BVH_FOUR; place++) {
-        if (place == count || (count == 0u && place > 0u)) {
-            put(place, place == count ? reference : BVH_NONE, lower, upper);
+        if (place == four_count || (four_count == 0u && place > 0u)) {
+            four_put(place, place == four_count ? reference : BVH_NONE, lower, upper);
         }
     }
-    count++;
+    four_count++;
 }
 
 #endif

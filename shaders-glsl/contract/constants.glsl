@@ -3,6 +3,9 @@
 #ifndef CONTRACT_CONSTANTS_GLSL
 #define CONTRACT_CONSTANTS_GLSL
 
+// Largest relative error of one operation in single precision, rounded up. Bounds of errors are multiples of it.
+#define FLOAT_ROUNDING 6.0e-8
+
 // Absence of a primitive: a miss, or a structure that does not know the id.
 #define PRIMITIVE_NONE 0xFFFFFFFFu
 

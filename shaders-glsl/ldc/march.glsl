@@ -6,12 +6,13 @@
 #ifndef LDC_MARCH_GLSL
 #define LDC_MARCH_GLSL
 
+// LDC_SHIFTED: a value and what the shift of a rigid draw's ray adds to it; nothing for other rays.
 #ifdef RIGID
 // Largest shift of the ray by rounding, in cells: squares within this distance of the ray are crossed, too.
 float ldc_spread = 0.0;
-#define LDC_SPREAD(wide) + (wide)
+#define LDC_SHIFTED(value, shift) ((value) + (shift))
 #else
-#define LDC_SPREAD(wide)
+#define LDC_SHIFTED(value, shift) (value)
 #endif
 
 // Ray over a view, in units of cells.
@@ -62,7 +63,8 @@ LdcArea ldc_area(LdcFlatRay ray, vec2 width, ivec2 first, ivec2 last) {
 ivec2 ldc_touched(LdcFlatRay ray, LdcArea area, int side, vec2 t) {
     float origin = ray.origin[side];
     vec2 moved = ray.direction[side] == 0.0 ? vec2(0.0) : t * ray.direction[side];
-    float guard = 9.6e-7 * (abs(origin) + max(abs(moved.x), abs(moved.y))) LDC_SPREAD(ldc_spread);
+    float rounding = 16.0 * FLOAT_ROUNDING * (abs(origin) + max(abs(moved.x), abs(moved.y)));
+    float guard = LDC_SHIFTED(rounding, ldc_spread);
     vec2 ends = vec2(origin + min(moved.x, moved.y) - guard, origin + max(moved.x, moved.y) + guard) / area.width[side];
     // The values are clamped as floats, because a value that does not fit into an integer cannot be
     // converted.
@@ -76,8 +78,8 @@ void ldc_enter_column(LdcFlatRay ray, inout LdcMarch march) {
     if (ray.inverse != 0.0) {
         float from = (float(march.column) * march.area.width.x - ray.origin.x) * ray.inverse;
         float to = (float(march.column + 1) * march.area.width.x - ray.origin.x) * ray.inverse;
-        float slack = 6.0e-8 * (8.0 * max(abs(from), abs(to)) + 2.0 * abs(ray.origin.x * ray.inverse))
-            LDC_SPREAD(ldc_spread * abs(ray.inverse));
+        float rounding = FLOAT_ROUNDING * (8.0 * max(abs(from), abs(to)) + 2.0 * abs(ray.origin.x * ray.inverse));
+        float slack = LDC_SHIFTED(rounding, ldc_spread * abs(ray.inverse));
         t = vec2(max(t.x, min(from, to) - slack), min(t.y, max(from, to) + slack));
     }
     ivec2 rows = ldc_touched(ray, march.area, 1, t);

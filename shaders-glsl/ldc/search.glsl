@@ -67,7 +67,7 @@ LdcSizes ldc_sizes(LdcRef s, Ray ray) {
 vec2 ldc_depths_between(float z_origin, float z_direction, float t_low, float t_high) {
     float z_in = z_origin + t_low * z_direction;
     float z_out = z_origin + t_high * z_direction;
-    float rounding = 4.8e-7 * (abs(z_origin) + max(abs(t_low), abs(t_high)) * abs(z_direction));
+    float rounding = 8.0 * FLOAT_ROUNDING * (abs(z_origin) + max(abs(t_low), abs(t_high)) * abs(z_direction));
     return vec2(min(z_in, z_out) - rounding, max(z_in, z_out) + rounding);
 }
 
@@ -117,7 +117,7 @@ float ldc_slope_tolerance(LdcRef s, LdcSearch search, uint primitive, float z) {
     ldc_built_corners(primitive, a, b, c);
     vec3 normal = triangle_permute(cross(b - a, c - a), search.axis);
     float rise = 0.5 * (abs(normal.x) + abs(normal.y)) / max(abs(normal.z), 1.0e-30);
-    float last_place = LDC_DEPTH_BITS == 16u ? ldc_depth_rounding(s) : 1.2e-7 * z;
+    float last_place = LDC_DEPTH_BITS == 16u ? ldc_depth_rounding(s) : 2.0 * FLOAT_ROUNDING * z;
     return max(min(rise, 1.0) * search.sizes.cell, 2.0 * last_place);
 }
 

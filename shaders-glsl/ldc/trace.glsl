@@ -16,15 +16,15 @@ vec2 ldc_clip(LdcRef s, Ray ray) {
     for (int axis = 0; axis < 3; axis++) {
         float o = ray.origin[axis];
         float d = ray.direction[axis];
-        float lower = LDC_HEADER(s).lower[axis] LDC_SPREAD(-ldc_spread * LDC_HEADER(s).cell);
-        float upper = LDC_HEADER(s).upper[axis] LDC_SPREAD(ldc_spread * LDC_HEADER(s).cell);
+        float lower = LDC_SHIFTED(LDC_HEADER(s).lower[axis], -ldc_spread * LDC_HEADER(s).cell);
+        float upper = LDC_SHIFTED(LDC_HEADER(s).upper[axis], ldc_spread * LDC_HEADER(s).cell);
         if (d == 0.0) {
             interval.y = o < lower || o > upper ? -1.0 : interval.y;
             continue;
         }
         float ta = (lower - o) / d;
         float tb = (upper - o) / d;
-        float slack = 9.6e-7 * max(abs(ta), abs(tb));
+        float slack = 16.0 * FLOAT_ROUNDING * max(abs(ta), abs(tb));
         interval.x = max(interval.x, min(ta, tb) - slack);
         interval.y = min(interval.y, max(ta, tb) + slack);
     }

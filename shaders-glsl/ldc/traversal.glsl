@@ -70,14 +70,14 @@ vec2 ldc_square_interval(LdcTraversal traversal, ivec2 lower, ivec2 upper) {
         float from = float(lower[side]) - traversal.origin[side];
         float to = float(upper[side]) - traversal.origin[side];
         if (inverse == 0.0) {
-            float slack = 2.4e-7 * abs(traversal.origin[side]) LDC_SPREAD(ldc_spread);
+            float slack = LDC_SHIFTED(4.0 * FLOAT_ROUNDING * abs(traversal.origin[side]), ldc_spread);
             t = from > slack || to < -slack ? vec2(1.0, 0.0) : t;
             continue;
         }
-        t = vec2(max(t.x, min(from * inverse, to * inverse) LDC_SPREAD(-ldc_spread * abs(inverse))),
-            min(t.y, max(from * inverse, to * inverse) LDC_SPREAD(ldc_spread * abs(inverse))));
+        t = vec2(max(t.x, LDC_SHIFTED(min(from * inverse, to * inverse), -ldc_spread * abs(inverse))),
+            min(t.y, LDC_SHIFTED(max(from * inverse, to * inverse), ldc_spread * abs(inverse))));
     }
-    vec2 slack = 6.0e-8 * (8.0 * abs(t) + 2.0 * traversal.shift);
+    vec2 slack = FLOAT_ROUNDING * (8.0 * abs(t) + 2.0 * traversal.shift);
     return vec2(t.x - slack.x, t.y + slack.y);
 }
 
@@ -89,8 +89,8 @@ vec2 ldc_block_interval(LdcTraversal traversal, uint level, ivec2 block) {
 // True if nothing in a segment that begins at t_low, or in a later one, can be nearer than the best hit. A
 // later segment may begin earlier by as much as a segment is widened for its rounding.
 bool ldc_is_behind(LdcTraversal traversal, float t_low, float best_t) {
-    return t_low - traversal.sizes.slack - 6.0e-8 * (8.0 * abs(t_low) + 2.0 * traversal.shift)
-        LDC_SPREAD(-2.0 * ldc_spread * max(abs(traversal.inverse.x), abs(traversal.inverse.y))) > best_t;
+    float t = t_low - traversal.sizes.slack - FLOAT_ROUNDING * (8.0 * abs(t_low) + 2.0 * traversal.shift);
+    return LDC_SHIFTED(t, -2.0 * ldc_spread * max(abs(traversal.inverse.x), abs(traversal.inverse.y))) > best_t;
 }
 
 // Begins the traversal over the blocks of a level, or over cells (level 2), in a block of the level above or in
@@ -116,7 +116,7 @@ bool ldc_block_overlaps(LdcRef s, LdcTraversal traversal, uint level, ivec2 bloc
     float margin = traversal.sizes.margin;
     vec2 depths = ldc_depths_between(traversal.z_origin, traversal.z_direction, interval.x, interval.y);
     // Depths computed for a cell round differently.
-    float rounding = 4.8e-7 * (abs(traversal.z_origin) + max(abs(interval.x),
+    float rounding = 8.0 * FLOAT_ROUNDING * (abs(traversal.z_origin) + max(abs(interval.x),
         abs(interval.y)) * abs(traversal.z_direction));
     float low = depths.x - margin - rounding;
     float high = depths.y + margin + rounding;

@@ -41,7 +41,7 @@ bool primitive_jump(PrimitiveRef s, inout CellMarch m, MarchSkip skip) {
             return false;
         }
         t = m.t_end;
-        error = 6.0e-8 * 16.0 * abs(t);
+        error = FLOAT_ROUNDING * 16.0 * abs(t);
     }
     ivec2 cell = march_cell_at(m.origin, m.direction, t, m.resolution);
     bvec2 up = greaterThan(m.step_direction, ivec2(0));

@@ -24,7 +24,7 @@ struct PrimitiveSearch {
 vec2 primitive_ray_depths(float origin_z, float direction_z, float t_low, float t_high, float rounding) {
     float low = origin_z + t_low * direction_z;
     float high = origin_z + t_high * direction_z;
-    float error = rounding + 4.8e-7 * (abs(origin_z) + max(abs(t_low), abs(t_high)) * abs(direction_z));
+    float error = rounding + 8.0 * FLOAT_ROUNDING * (abs(origin_z) + max(abs(t_low), abs(t_high)) * abs(direction_z));
     return vec2(min(low, high) - error, max(low, high) + error);
 }
 

@@ -14,7 +14,7 @@ Surface plane_surface(Ray ray, Hit hit) {
     if (any(notEqual(inside, vec2(hit.a, hit.b)))) {
         surface.position = on_ray;
         vec3 size = abs(ray.origin) + abs(hit.t * ray.direction);
-        surface.position_error = max(surface.position_error, 4.8e-7 * max(size.x, max(size.y, size.z)));
+        surface.position_error = max(surface.position_error, 8.0 * FLOAT_ROUNDING * max(size.x, max(size.y, size.z)));
     }
     return surface;
 }

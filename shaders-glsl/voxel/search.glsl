@@ -56,7 +56,7 @@ bool voxel_search_list(VoxelRef s, Ray ray, vec2 interval, inout VoxelTraversal 
     bool triangles = VOXEL_COVERAGE == VOXEL_COVERAGE_CONSERVATIVE;
     float rise = triangles ? 1.0 + AXIS_DEPTH_SLACK : 2.01;
     float slack = VOXEL_AXES == VOXEL_AXES_TRIANGLE
-        ? rise * width + 4.8e-7 * (abs(origin_z) + max(abs(interval.x), abs(interval.y)) * abs(direction_z))
+        ? rise * width + 8.0 * FLOAT_ROUNDING * (abs(origin_z) + max(abs(interval.x), abs(interval.y)) * abs(direction_z))
         : uintBitsToFloat(0x7F800000u);
     float low = min(z_in, z_out) - slack;
     float high = max(z_in, z_out) + slack;

@@ -1,6 +1,7 @@
-//! Every module as pipelines hand it to a driver: without what its constants switch off, held against
-//! SPIR-V's own validator.
+//! Modules and their constants. Every module as pipelines hand it to a driver, without what its constants switch off,
+//! is held against SPIR-V's own validator.
 
+use std::collections::BTreeSet;
 use std::io::Write;
 use std::process::{Command, Stdio};
 
@@ -48,4 +49,26 @@ fn switches_that_are_off_leave_half_of_a_path_s_step() {
     let all_off: Vec<(u32, u32)> = (0..256).map(|id| (id, 0)).collect();
     let left = specialised(&module, &all_off).len();
     assert!(left * 10 < module.len() * 6, "{left} of {} words", module.len());
+}
+
+/// The page on the contract names every id of a specialisation constant, for hosts that choose ids of their own.
+#[test]
+fn the_contract_names_the_ids_of_all_constants() {
+    let declared: BTreeSet<u32> = shaders::files()
+        .iter()
+        .flat_map(|file| file.text.split("constant_id = ").skip(1))
+        .filter_map(|rest| rest.split(|c: char| !c.is_ascii_digit()).next()?.parse().ok())
+        .collect();
+    let page = include_str!("../../docs/contract.md");
+    let (_, rest) = page.split_once("Ids of specialisation constants in use: ").expect("the page has them");
+    let (text, _) = rest.split_once(". Ids from").expect("and ends them");
+    let numbers = text.split(|c: char| !c.is_ascii_digit() && c != '–').filter(|word| !word.is_empty());
+    let named: BTreeSet<u32> = numbers
+        .flat_map(|word| {
+            let (first, last) = word.split_once('–').unwrap_or((word, word));
+            let id = |text: &str| text.parse().expect("an id");
+            id(first)..=id(last)
+        })
+        .collect();
+    assert_eq!(named, declared);
 }

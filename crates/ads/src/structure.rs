@@ -134,7 +134,8 @@ pub trait Structure: Send + Sync {
     ) -> Result<(), AdsError>;
 
     /// Reads the outcome of the last build of a slot, after its submission has ended. From then on,
-    /// [`Structure::report`] and [`Structure::rounds`] refer to this build.
+    /// [`Structure::report`] and [`Structure::rounds`] refer to this build. A slot without a build so far is
+    /// incomplete, and [`Structure::check`] then returns the present sizes.
     ///
     /// # Errors
     /// The slot does not exist, or host-visible memory could not be read.

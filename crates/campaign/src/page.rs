@@ -67,7 +67,8 @@ fn head(
     let device = &campaign.device;
     let software = if device.software { ", a software driver" } else { "" };
     let mut text = format!("# Replication of {}\n\n{}.\n\n", paper.name, paper.cited);
-    let (program, name) = (in_line(&campaign.program), in_line(&device.name));
+    let name = device.full_name();
+    let (program, name) = (in_line(&campaign.program), in_line(&name));
     _ = writeln!(text, "Made by rasray {program} on {name}{software}:\n");
     _ = writeln!(text, "```\nrasray replicate {} {}\n```\n", paper.name, items.join(" "));
     text += "*Ours*: of a ratio the geometric mean over all pairs of runs that differ in nothing else (the least to the \

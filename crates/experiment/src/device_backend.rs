@@ -5,6 +5,7 @@ use rasray_gpu::{Device as GpuDevice, DeviceDesc};
 use crate::backend::{Backend, DeviceChoice, DeviceDescription, OnProgress, OnRun, TexelCapacity};
 use crate::built::Built;
 use crate::describe::requirements;
+use crate::device_record::device_record;
 use crate::device_scene::DeviceScene;
 use crate::error::ExperimentError;
 use crate::jobs::{CompareJob, Comparison, HardJob, RenderJob, RenderOutput};
@@ -40,11 +41,7 @@ impl DeviceBackend {
 
 impl Backend for DeviceBackend {
     fn device(&self) -> Device {
-        Device {
-            name: self.device.name().to_owned(),
-            driver: self.device.driver().to_owned(),
-            software: self.device.is_software(),
-        }
+        device_record(&self.device)
     }
 
     fn texel_capacity(&self) -> TexelCapacity {

@@ -362,10 +362,11 @@ fn first_pipeline(
     name: &str,
 ) -> Result<vk::Pipeline> {
     match made {
-        Ok(pipelines) => pipelines.first().copied().ok_or_else(|| GpuError::InvalidUse {
-            name: name.to_owned(),
-            reason: "the driver returned no pipeline".to_owned(),
-        }),
+        // A success without a pipeline is the driver's fault.
+        Ok(pipelines) => {
+            let none = || GpuError::from_vulkan(vk::Result::ERROR_UNKNOWN, call, name);
+            pipelines.first().copied().ok_or_else(none)
+        }
         Err((pipelines, result)) => {
             for pipeline in pipelines {
                 // SAFETY: the pipeline was just made and is not used; null is ignored.

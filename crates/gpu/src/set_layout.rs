@@ -106,10 +106,8 @@ pub(crate) fn add_part(
             unsafe { core.device.destroy_descriptor_pool(pool, None) };
             return Err(match other {
                 Err(error) => error.clone(),
-                Ok(_) => GpuError::InvalidUse {
-                    name: name.to_owned(),
-                    reason: "the driver returned no descriptor set".to_owned(),
-                },
+                // A success without a set.
+                Ok(_) => GpuError::from_vulkan(vk::Result::ERROR_UNKNOWN, "vkAllocateDescriptorSets", name),
             });
         }
     };

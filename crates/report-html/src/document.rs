@@ -99,7 +99,7 @@ fn facts(report: &Report) -> Vec<(&'static str, Cow<'_, str>)> {
 /// Describes a device and its driver.
 pub(super) fn device_words(device: &Device) -> String {
     let kind = if device.software { ", software" } else { "" };
-    format!("{} ({}{kind})", device.name, device.driver)
+    format!("{} ({}{kind})", device.full_name(), device.driver)
 }
 
 fn header(page: &mut Markup, head: &Head<'_>) {

@@ -124,7 +124,7 @@ pub fn campaign_markdown(campaign: &Campaign) -> String {
         "# {}\n\nrasray {}. Device: {}{software}.\n",
         in_line(&campaign.title),
         in_line(&campaign.program),
-        in_line(&device.name)
+        in_line(&device.full_name())
     );
     for experiment in &campaign.experiments {
         text += &format!("\n## {}\n\n{}\n", in_line(&experiment.name), experiment_markdown(experiment));

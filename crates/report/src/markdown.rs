@@ -57,7 +57,8 @@ fn title(report: &Report) -> String {
     let command =
         report.command.as_ref().map(|line| format!("\n```\n{}\n```\n", in_line(line))).unwrap_or_default();
     let triangles = grouped(scene.triangles);
-    let (scene, device) = (in_line(&scene.name), in_line(&device.name));
+    let device = device.full_name();
+    let (scene, device) = (in_line(&scene.name), in_line(&device));
     format!("**{scene}**, {triangles} triangles. {rays}Device: {device}{software}.\n{command}\n")
 }
 

@@ -75,6 +75,19 @@ pub struct Device {
     pub driver: String,
     /// True if the device is a program on the processor, whose times are only for ratios on that device.
     pub software: bool,
+    /// Processor that a software device runs on, where the system names it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub processor: Option<String>,
+}
+
+impl Device {
+    /// Returns the name, for a software device with the processor that it runs on.
+    pub fn full_name(&self) -> String {
+        match &self.processor {
+            Some(processor) => format!("{} on {processor}", self.name),
+            None => self.name.clone(),
+        }
+    }
 }
 
 /// Scene of a report.

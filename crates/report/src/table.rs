@@ -107,7 +107,7 @@ pub fn table_within(report: &Report, camera: Option<&str>, full: bool, width: Op
 fn unbroken(report: &Report, camera: Option<&str>, full: bool, width: Option<usize>) -> String {
     let device = &report.device;
     let note = if device.software { "; times of software devices are for ratios on that device" } else { "" };
-    let mut text = format!("device {} ({}){note}\n", device.name, device.driver);
+    let mut text = format!("device {} ({}){note}\n", device.full_name(), device.driver);
     _ = writeln!(
         text,
         "scene  {}, {} triangles",
@@ -204,7 +204,7 @@ mod tests {
             ..Default::default()
         };
         let accuracy = Accuracy { rays: 1000, missed: 1, ..Default::default() };
-        let device = Device { name: "d".to_owned(), driver: "e".to_owned(), software: true };
+        let device = Device { name: "d".to_owned(), driver: "e".to_owned(), software: true, processor: None };
         let scene =
             SceneRecord { name: "box".to_owned(), triangles: 12_000, sha256: None, ..SceneRecord::default() };
         let runs = vec![run("mmrt", Some(accuracy)), run("brute-force", None)];
@@ -232,7 +232,7 @@ mod tests {
             ..Default::default()
         };
         let name = "llvmpipe (LLVM 15.0.6, 128 bits)".to_owned();
-        let device = Device { name, driver: "Mesa 25.0.7".to_owned(), software: true };
+        let device = Device { name, driver: "Mesa 25.0.7".to_owned(), software: true, processor: None };
         let report = Report::new(Origin::default(), device, SceneRecord::default(), vec![run.clone(), run]);
         let whole = table(&report, None, false);
         assert!(whole.lines().any(|line| line.chars().count() > 132));

@@ -1,7 +1,8 @@
 //! Results of the full tier as a report: a run for every row and case.
 
 use rasray_ads::{Structure, StructureKind};
-use rasray_report::{Accuracy, Device, HardRecord, Origin, RateRecord, Report, Run, SceneRecord, Times};
+use rasray_experiment::device_record;
+use rasray_report::{Accuracy, HardRecord, Origin, RateRecord, Report, Run, SceneRecord, Times};
 use rasray_tests::conformance::{Measured, Prepared, Row};
 use rasray_tests::harness::Bench;
 
@@ -64,12 +65,7 @@ pub fn run(
 /// Writes the runs where the environment says so.
 pub fn write(bench: &Bench, runs: Vec<Run>) {
     let Some(file) = std::env::var_os(FILE) else { return };
-    let device = bench.device();
-    let device = Device {
-        name: device.name().to_owned(),
-        driver: device.driver().to_owned(),
-        software: device.is_software(),
-    };
+    let device = device_record(bench.device());
     let mut cases: Vec<_> = runs.iter().filter_map(|run| run.hard.as_ref()).collect();
     cases.sort_by(|a, b| (&a.id, a.triangles).cmp(&(&b.id, b.triangles)));
     cases.dedup_by(|a, b| (&a.id, a.triangles) == (&b.id, b.triangles));

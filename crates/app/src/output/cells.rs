@@ -66,7 +66,7 @@ pub(crate) fn read_cells(path: &Path) -> Result<CellLines, AppError> {
 
 /// Describes the difference between the subjects of two lines; `None` if both are of one comparison.
 pub(crate) fn difference(line: &Report, other: &Report) -> Option<String> {
-    let device = |report: &Report| format!("{} ({})", report.device.name, report.device.driver);
+    let device = |report: &Report| format!("{} ({})", report.device.full_name(), report.device.driver);
     let list = |report: &Report| report.cell.as_ref().map(|cell| (cell.list.clone(), cell.cells));
     if line.program() != other.program() {
         return Some(format!("was made by rasray {}, and not by rasray {}", line.program(), other.program()));

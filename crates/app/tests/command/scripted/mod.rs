@@ -45,7 +45,7 @@ fn lost() -> ExperimentError {
 
 impl Backend for Scripted {
     fn device(&self) -> Device {
-        Device { name: "scripted".to_owned(), driver: "none 1".to_owned(), software: true }
+        Device { name: "scripted".to_owned(), driver: "none 1".to_owned(), software: true, processor: None }
     }
 
     fn texel_capacity(&self) -> TexelCapacity {
