@@ -1,5 +1,5 @@
-//! Modules and their constants. Every module as pipelines hand it to a driver, without what its constants switch off,
-//! is held against SPIR-V's own validator.
+//! Modules and their constants. Every module as pipelines hand it to a driver, without what its constants
+//! switch off, is held against SPIR-V's own validator.
 
 use std::collections::BTreeSet;
 use std::io::Write;
@@ -51,7 +51,7 @@ fn switches_that_are_off_leave_half_of_a_path_s_step() {
     assert!(left * 10 < module.len() * 6, "{left} of {} words", module.len());
 }
 
-/// The page on the contract names every id of a specialisation constant, for hosts that choose ids of their own.
+/// The page on the contract names every id of a specialisation constant, for hosts that choose their own.
 #[test]
 fn the_contract_names_the_ids_of_all_constants() {
     let declared: BTreeSet<u32> = shaders::files()
