@@ -38,36 +38,39 @@ bool abuffer_test_listed(AbufferRef s, Ray ray, uint source, inout AbufferTraver
     float t_low = anywhere ? -ABUFFER_INFINITY : traversal.segment.t_begin - traversal.segment.t_error;
     float t_high = anywhere ? ABUFFER_INFINITY : traversal.segment.t_end + traversal.segment.t_error;
     vec2 depths = search.z + vec2(-search.rounding, search.rounding);
-    while (in_conservative ? search.link != 0u : traversal.place < count) {
-        if (work >= work_budget) {
-            return true;
-        }
-        work++;
+    while (true) {
+        // The next triangle is found in a loop of its own: rays that run together test theirs together.
         uint primitive = PRIMITIVE_NONE;
-        if (in_conservative) {
-            state.entries++;
-            trace_log_visit(STEP_ENTRY, search.link, 0u, 0u, 0.0, 0.0);
-            ConservativeNode node = conservative_node(s, search.link);
-            search.link = node.next;
-            primitive = node.primitive;
-            // With planes, only hits within the ray's interval in the cell count, with or without skipping.
-            bool intersects = (ABUFFER_SKIP == 0u && ABUFFER_CONSERVATIVE) || conservative_intersects(node, depths.x,
-                depths.y);
-            if (primitive != PRIMITIVE_NONE && !intersects) {
-                trace_log(STEP_SKIP, SKIP_OUTSIDE, 0u, 0u, node.depths.x, node.depths.y);
-                primitive = PRIMITIVE_NONE;
+        bool more = in_conservative ? search.link != 0u : traversal.place < count;
+        while (more && primitive == PRIMITIVE_NONE && work < work_budget) {
+            work++;
+            if (in_conservative) {
+                state.entries++;
+                trace_log_visit(STEP_ENTRY, search.link, 0u, 0u, 0.0, 0.0);
+                ConservativeNode node = conservative_node(s, search.link);
+                search.link = node.next;
+                more = search.link != 0u;
+                // With planes, only hits within the ray's interval in the cell count, with or without skipping.
+                bool intersects = (ABUFFER_SKIP == 0u && ABUFFER_CONSERVATIVE) || conservative_intersects(node, depths.x,
+                    depths.y);
+                if (node.word != PRIMITIVE_NONE && intersects) {
+                    primitive = conservative_primitive(s, node);
+                } else if (node.word != PRIMITIVE_NONE) {
+                    trace_log(STEP_SKIP, SKIP_OUTSIDE, 0u, 0u, node.depths.x, node.depths.y);
+                }
+            } else {
+                primitive = source == ABUFFER_LISTED_ALL ? traversal.place : ABUFFER_POOL(s, near)[traversal.place];
+                traversal.place++;
+                more = traversal.place < count;
             }
-        } else {
-            primitive = source == ABUFFER_LISTED_ALL ? traversal.place : ABUFFER_POOL(s, near)[traversal.place];
-            traversal.place++;
         }
-        if (primitive != PRIMITIVE_NONE) {
-            state.tests++;
-            test_listed(ray, primitive, t_low, t_high, in_conservative && !ABUFFER_CONSERVATIVE, state.best);
+        if (primitive == PRIMITIVE_NONE) {
+            search.in_conservative = in_conservative && more;
+            return more;
         }
+        state.tests++;
+        test_listed(ray, primitive, t_low, t_high, in_conservative && !ABUFFER_CONSERVATIVE, state.best);
     }
-    search.in_conservative = false;
-    return false;
 }
 
 #endif

@@ -32,7 +32,7 @@ uvec2 abuffer_pyramid_conservative(AbufferRef s, uint cell) {
         }
         ConservativeNode node = conservative_node(s, link);
         link = node.next;
-        if (node.primitive != PRIMITIVE_NONE) {
+        if (node.word != PRIMITIVE_NONE) {
             vec2 depths = vec2(max(node.depths.x - rounding, 0.0), node.depths.y + rounding);
             words = max(words, uvec2(~floatBitsToUint(depths.x), floatBitsToUint(depths.y)));
         }

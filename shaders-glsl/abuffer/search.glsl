@@ -100,39 +100,50 @@ bool abuffer_search(AbufferRef s, Ray ray, float origin_z, float direction_z, bo
         if (!resumed && end_early) {
             abuffer_seek(s, list, low, high, cursor, state, work);
         }
-        while (cursor.link != 0u) {
-            if (work >= work_budget) {
+        while (true) {
+            // The next fragment is found in a loop of its own: rays that run together test theirs together.
+            bool found = false;
+            uint current = 0u;
+            float z = 0.0;
+            // A fragment without an id cannot be the triangle that is excluded.
+            uint primitive = PRIMITIVE_UNKNOWN;
+            while (!found && cursor.link != 0u && work < work_budget) {
+                work++;
+                state.entries++;
+                current = abuffer_list_next(s, cursor);
+                if (current == 0u) {
+                    cursor.link = 0u;
+                    break;
+                }
+                z = abuffer_z(s, current);
+                trace_log_visit(STEP_ENTRY, current, 0u, 0u, z, z);
+                if (end_early && (backward ? z < low : z > high)) {
+                    trace_log(STEP_SKIP, SKIP_PAST, 0u, 0u, low, high);
+                    // If lists are read from the far side to the near one, the following buckets hold smaller
+                    // depths.
+                    if (backward == !away && !ABUFFER_PAGED) {
+                        return false;
+                    }
+                    abuffer_list_skip(s, current, cursor);
+                    continue;
+                }
+                primitive = PRIMITIVE_UNKNOWN;
+                if (ABUFFER_PAYLOAD == ABUFFER_PAYLOAD_INDEX && ((z >= low && z <= high) || COUNTERS >= COUNTERS_STEPS)) {
+                    primitive = abuffer_data(s, current, 0u);
+                }
+                found = abuffer_intersects(s, search, primitive, z, low, high);
+                if (!found) {
+                    trace_log(STEP_FRAGMENT, primitive, TEST_OUTSIDE_CELL, 0u, 0.0, z);
+                }
+            }
+            if (!found && cursor.link == 0u) {
+                break;
+            }
+            if (!found) {
                 search.bucket = step_index;
                 search.link = cursor.link;
                 search.in_bucket = true;
                 return true;
-            }
-            work++;
-            state.entries++;
-            uint current = abuffer_list_next(s, cursor);
-            if (current == 0u) {
-                break;
-            }
-            float z = abuffer_z(s, current);
-            trace_log_visit(STEP_ENTRY, current, 0u, 0u, z, z);
-            if (end_early && (backward ? z < low : z > high)) {
-                trace_log(STEP_SKIP, SKIP_PAST, 0u, 0u, low, high);
-                // If lists are read from the far side to the near one, the following buckets hold smaller
-                // depths.
-                if (backward == !away && !ABUFFER_PAGED) {
-                    return false;
-                }
-                abuffer_list_skip(s, current, cursor);
-                continue;
-            }
-            // A fragment without an id cannot be the triangle that is excluded.
-            uint primitive = PRIMITIVE_UNKNOWN;
-            if (ABUFFER_PAYLOAD == ABUFFER_PAYLOAD_INDEX && ((z >= low && z <= high) || COUNTERS >= COUNTERS_STEPS)) {
-                primitive = abuffer_data(s, current, 0u);
-            }
-            if (!abuffer_intersects(s, search, primitive, z, low, high)) {
-                trace_log(STEP_FRAGMENT, primitive, TEST_OUTSIDE_CELL, 0u, 0.0, z);
-                continue;
             }
             if (ABUFFER_TEST != ABUFFER_TEST_DEPTHS) {
                 state.tests++;

@@ -14,7 +14,7 @@
 #define ADS_CONSERVATIVE_GLSL
 
 struct ConservativeNode {
-    uint primitive;
+    uint word;            // where its triangle is; PRIMITIVE_NONE: there is no such node
     uint next;
     vec2 depths;          // smallest and largest that the triangle has in the cell
 };
@@ -50,8 +50,13 @@ ConservativeNode conservative_node(ConservativeRef s, uint link) {
     }
     uint word = 3u * (link - 1u);
     uint depths = CONSERVATIVE_NODES(s)[word + 2u];
-    return ConservativeNode(CONSERVATIVE_NODES(s)[word], CONSERVATIVE_NODES(s)[word + 1u],
+    return ConservativeNode(word, CONSERVATIVE_NODES(s)[word + 1u],
         vec2(uintBitsToFloat(depths << 16), uintBitsToFloat(depths & 0xFFFF0000u)));
+}
+
+// Returns the triangle of a node that there is.
+uint conservative_primitive(ConservativeRef s, ConservativeNode node) {
+    return CONSERVATIVE_NODES(s)[node.word];
 }
 
 #undef ConservativeRef

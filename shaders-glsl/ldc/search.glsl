@@ -216,26 +216,29 @@ uint ldc_first_from(LdcRef s, uvec2 list, float z, inout TraceState state, inout
 bool ldc_search_conservative(LdcRef s, Ray ray, inout LdcSearch search, inout TraceState state, inout uint work) {
     vec2 depths = ldc_depths_between(search.z_origin, search.z_direction, search.t_low, search.t_high);
     float margin = search.sizes.margin;
-    while (search.place != 0u) {
-        if (work >= work_budget) {
-            return true;
+    while (true) {
+        // The next triangle is found in a loop of its own: rays that run together test theirs together.
+        bool found = false;
+        ConservativeNode node;
+        while (!found && search.place != 0u && work < work_budget) {
+            work++;
+            state.entries++;
+            trace_log_visit(STEP_ENTRY, search.place, 0u, 0u, 0.0, 0.0);
+            node = conservative_node(s, search.place);
+            search.place = node.next;
+            bool exists = node.word != PRIMITIVE_NONE;
+            found = exists
+                && (LDC_SKIP == 0u || conservative_intersects(node, depths.x - margin, depths.y + margin));
+            if (exists && !found) {
+                trace_log(STEP_SKIP, SKIP_OUTSIDE, 0u, 0u, node.depths.x, node.depths.y);
+            }
         }
-        work++;
-        state.entries++;
-        trace_log_visit(STEP_ENTRY, search.place, 0u, 0u, 0.0, 0.0);
-        ConservativeNode node = conservative_node(s, search.place);
-        search.place = node.next;
-        if (node.primitive == PRIMITIVE_NONE) {
-            continue;
+        if (!found) {
+            return search.place != 0u;
         }
-        if (LDC_SKIP == 0u || conservative_intersects(node, depths.x - margin, depths.y + margin)) {
-            state.tests++;
-            test_with_planes(ray, node.primitive, search.t_low, search.t_high, state.best);
-        } else {
-            trace_log(STEP_SKIP, SKIP_OUTSIDE, 0u, 0u, node.depths.x, node.depths.y);
-        }
+        state.tests++;
+        test_with_planes(ray, conservative_primitive(s, node), search.t_low, search.t_high, state.best);
     }
-    return false;
 }
 
 // Returns how much nearer than the margin a fragment must be to the ray's depths: words of 32 bits hold the
@@ -262,20 +265,29 @@ bool ldc_search(LdcRef s, Ray ray, bool ordered, inout LdcSearch search, inout T
                 search.place = from_begin ? list.x : ldc_first_from(s, list, wanted.x, state, work);
             }
         }
-        while (search.place < list.y) {
-            if (work >= work_budget) {
-                return true;
-            }
-            uint place = search.place;
-            float z = ldc_read(s, place, state, work);
-            search.place++;
-            float less = ldc_margin_less(search, z);
-            if (!ldc_is_anywhere(z) && (z < wanted.x + less || z > wanted.y - less)) {
-                trace_log(STEP_SKIP, SKIP_OUTSIDE, 0u, 0u, wanted.x, wanted.y);
-                if (LDC_SKIP != 0u && ordered && z > wanted.y) {
-                    break;
+        bool ended = search.place >= list.y;
+        while (!ended) {
+            // The next fragment is found in a loop of its own: rays that run together test theirs together.
+            bool found = false;
+            uint place = 0u;
+            float z = 0.0;
+            while (!found && !ended && work < work_budget) {
+                place = search.place;
+                z = ldc_read(s, place, state, work);
+                search.place++;
+                ended = search.place >= list.y;
+                float less = ldc_margin_less(search, z);
+                found = ldc_is_anywhere(z) || !(z < wanted.x + less || z > wanted.y - less);
+                if (!found) {
+                    trace_log(STEP_SKIP, SKIP_OUTSIDE, 0u, 0u, wanted.x, wanted.y);
+                    ended = ended || (LDC_SKIP != 0u && ordered && z > wanted.y);
                 }
-                continue;
+            }
+            if (!found) {
+                if (!ended) {
+                    return true;
+                }
+                break;
             }
             if (LDC_ACCEPT == LDC_ACCEPT_TRIANGLE) {
                 test_anywhere(ray, ldc_primitive(s, place), state);

@@ -72,42 +72,46 @@ bool voxel_search_list(VoxelRef s, Ray ray, vec2 interval, inout VoxelTraversal 
         }
     }
     traversal.in_list = false;
-    while (cursor.link != 0u) {
-        if (work >= work_budget) {
+    while (true) {
+        // The next fragment is found in a loop of its own: rays that run together test theirs together.
+        bool found = false;
+        uint place = VOXEL_NO_PLACE;
+        while (!found && cursor.link != 0u && work < work_budget) {
+            work++;
+            place = voxel_list_next(s, cursor);
+            if (place == VOXEL_NO_PLACE) {
+                return false;
+            }
+            state.entries++;
+            float z = voxel_z(s, place);
+            trace_log_visit(STEP_ENTRY, place, 0u, 0u, z, z);
+            bool anywhere = triangles && z == REACHED_ANY_DEPTH;
+            if (z > high && sorted && !anywhere) {
+                trace_log(STEP_SKIP, SKIP_PAST, 0u, 0u, low, high);
+                return false;
+            }
+            // With conservative coverage the last two bits of a depth hold the reach of the triangle's depths
+            // from it.
+            float less = triangles ? width * reached_less(z) : 0.0;
+            found = anywhere || !(z < low + less || z > high - less);
+            if (!found) {
+                trace_log(STEP_FRAGMENT, voxel_primitive(s, place), TEST_OUTSIDE_CELL, 0u, 0.0, z);
+            }
+        }
+        if (!found) {
             traversal.link = cursor.link;
-            traversal.in_list = true;
-            return true;
-        }
-        work++;
-        uint place = voxel_list_next(s, cursor);
-        if (place == VOXEL_NO_PLACE) {
-            return false;
-        }
-        state.entries++;
-        float z = voxel_z(s, place);
-        trace_log_visit(STEP_ENTRY, place, 0u, 0u, z, z);
-        bool anywhere = triangles && z == REACHED_ANY_DEPTH;
-        if (z > high && sorted && !anywhere) {
-            trace_log(STEP_SKIP, SKIP_PAST, 0u, 0u, low, high);
-            return false;
+            traversal.in_list = cursor.link != 0u;
+            return traversal.in_list;
         }
         uint primitive = voxel_primitive(s, place);
-        // With conservative coverage the last two bits of a depth hold the reach of the triangle's depths
-        // from it.
-        float less = triangles ? width * reached_less(z) : 0.0;
-        if ((z < low + less || z > high - less) && !anywhere) {
-            trace_log(STEP_FRAGMENT, primitive, TEST_OUTSIDE_CELL, 0u, 0.0, z);
-            continue;
-        }
         state.tests++;
         if (triangles) {
             float infinity = uintBitsToFloat(0x7F800000u);
             test_triangle(ray, primitive, -infinity, infinity, state.best);
-            continue;
+        } else {
+            test_plane(plane_cell, ray, primitive, interval.x, interval.y, state.best);
         }
-        test_plane(plane_cell, ray, primitive, interval.x, interval.y, state.best);
     }
-    return false;
 }
 
 // Searches the traversal's voxel in the traversal's view. True if the work budget ended first.
