@@ -84,6 +84,12 @@ impl<'a> Block<'a> {
         }
     }
 
+    /// Returns the place where the loop that begins here continues.
+    pub(crate) fn continues_at(&self) -> Option<u32> {
+        let merge = self.merge().filter(|merge| operation(merge) == op::LOOP_MERGE)?;
+        merge.get(2).copied()
+    }
+
     /// True if a merge instruction is dropped: a branch that is decided needs no place where its sides meet.
     pub(crate) fn drops(&self, each: &[u32]) -> bool {
         operation(each) == op::SELECTION_MERGE && self.only.is_some()
@@ -116,6 +122,17 @@ impl Function<'_> {
         live.flat_map(|block| block.next().into_iter().map(|next| (block.label, next))).collect()
     }
 
+    /// True if a block leads back to each loop that can be continued.
+    pub(crate) fn has_whole_loops(&self) -> bool {
+        let live = || self.blocks.iter().enumerate().filter(|(_, block)| block.is_live);
+        let is_live = |label: u32| live().any(|(_, block)| block.label == label);
+        let mut loops = live().filter_map(|(place, block)| Some((place, block.label, block.continues_at()?)));
+        loops.all(|(first, label, continues)| {
+            !is_live(continues)
+                || live().any(|(place, block)| place >= first && block.next().contains(&label))
+        })
+    }
+
     /// Finds values of instructions, decides the branches that depend on them, and finds the value that the
     /// function returns. Returns whether anything was found. What has been found stays true in later calls,
     /// as only further blocks go.
@@ -125,7 +142,10 @@ impl Function<'_> {
         let before = (known.len(), returns.len());
         let mut decided = false;
         let mut returned = Vec::new();
+        // Loops that have begun: a branch back to one stays, as each needs one.
+        let mut begun = HashSet::new();
         for block in self.blocks.iter_mut().filter(|block| block.is_live) {
+            begun.extend(block.continues_at().map(|_| block.label));
             for each in &block.all {
                 let value = |id: u32| known.get(&id).copied();
                 let found = match (operation(each), *each) {
@@ -147,6 +167,8 @@ impl Function<'_> {
             }
             if let (None, [_, condition, yes, no, ..]) = (block.only, block.terminator())
                 && operation(block.terminator()) == op::BRANCH_CONDITIONAL
+                && !begun.contains(yes)
+                && !begun.contains(no)
                 && let Some(value) = known.get(condition)
             {
                 block.only = Some(if *value != 0 { *yes } else { *no });
