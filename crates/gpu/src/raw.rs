@@ -47,6 +47,7 @@ impl Device {
     /// # Safety
     /// - Instance, physical device, device, queue, queue family and pipeline cache belong together and are
     ///   valid until the last object made from the returned device is dropped.
+    /// - `api_version` is at most the version that the instance was made for.
     /// - Every feature in `enabled` was enabled when the device was made (with its extension where it is
     ///   one), and `debug_utils` is true only if that extension is enabled and no validation layer older
     ///   than 1.3.242 is.

@@ -78,8 +78,9 @@ impl<'a> Block<'a> {
         match (operation(terminator), terminator) {
             (op::BRANCH, [_, target]) => vec![*target],
             (op::BRANCH_CONDITIONAL, [_, _, yes, no, ..]) => vec![*yes, *no],
-            // The numbers of cases are taken for labels, too. One that is a label keeps a block in vain.
-            (op::SWITCH, [_, _, targets @ ..]) => targets.to_vec(),
+            (op::SWITCH, [_, _, default, cases @ ..]) => {
+                [*default].into_iter().chain(cases.chunks_exact(2).map(|case| case[1])).collect()
+            }
             _ => Vec::new(),
         }
     }
@@ -122,8 +123,32 @@ impl Function<'_> {
         live.flat_map(|block| block.next().into_iter().map(|next| (block.label, next))).collect()
     }
 
+    /// True if what is left has the form of a function: it has [whole loops](Self::has_whole_loops), each
+    /// block follows one that leads to it, and no branch leaves a selection whose merge instruction is
+    /// dropped.
+    pub(crate) fn is_whole(&self) -> bool {
+        let live = || self.blocks.iter().filter(|block| block.is_live);
+        let mut led_to: HashSet<u32> = HashSet::from_iter(self.blocks.first().map(|block| block.label));
+        let is_in_order = live().all(|block| {
+            let follows = led_to.contains(&block.label);
+            led_to.extend(block.next());
+            follows
+        });
+        let merges = live().filter_map(|block| Some((block, block.merge()?)));
+        let dropped: HashSet<u32> = merges
+            .filter(|(block, merge)| block.drops(merge))
+            .filter_map(|(_, merge)| merge.get(1).copied())
+            .collect();
+        let mut leaving = live().filter(|block| block.only.is_none() && block.merge().is_none());
+        let leaves = leaving.any(|block| {
+            operation(block.terminator()) == op::BRANCH_CONDITIONAL
+                && block.next().iter().any(|next| dropped.contains(next))
+        });
+        is_in_order && !leaves && self.has_whole_loops()
+    }
+
     /// True if a block leads back to each loop that can be continued.
-    pub(crate) fn has_whole_loops(&self) -> bool {
+    fn has_whole_loops(&self) -> bool {
         let live = || self.blocks.iter().enumerate().filter(|(_, block)| block.is_live);
         let is_live = |label: u32| live().any(|(_, block)| block.label == label);
         let mut loops = live().filter_map(|(place, block)| Some((place, block.label, block.continues_at()?)));

@@ -1,6 +1,7 @@
 //! Instructions of a module.
 
 use std::borrow::Cow;
+use std::ops::RangeInclusive;
 
 pub(crate) const HEADER_WORDS: usize = 5;
 
@@ -8,6 +9,7 @@ pub(crate) const HEADER_WORDS: usize = 5;
 pub(crate) mod op {
     pub const UNDEF: u32 = 1;
     pub const NAME: u32 = 5;
+    pub const STRING: u32 = 7;
     pub const EXT_INST: u32 = 12;
     pub const ENTRY_POINT: u32 = 15;
     pub const TYPE_INT: u32 = 21;
@@ -24,6 +26,8 @@ pub(crate) mod op {
     pub const FUNCTION_CALL: u32 = 57;
     pub const VARIABLE: u32 = 59;
     pub const DECORATE: u32 = 71;
+    /// OpDecorationGroup, OpGroupDecorate, OpGroupMemberDecorate.
+    pub const GROUPED_DECORATIONS: [u32; 3] = [73, 74, 75];
     pub const COPY_OBJECT: u32 = 83;
     pub const I_ADD: u32 = 128;
     pub const I_SUB: u32 = 130;
@@ -73,6 +77,65 @@ const WITHOUT_RESULT: [u32; 25] = [
     4475, 4476, 5380,
 ];
 
+/// Opcodes of instructions of functions with a result, whose second operand is its id: of objects and memory,
+/// of images, of numbers, of derivatives, of atomics, OpPhi, of subgroups, OpCopyLogical to OpPtrDiff, of ray
+/// queries.
+const WITH_RESULT: [RangeInclusive<u32>; 21] = [
+    1..=1,
+    12..=12,
+    54..=55,
+    57..=57,
+    59..=61,
+    65..=70,
+    77..=84,
+    86..=98,
+    100..=107,
+    109..=124,
+    126..=152,
+    154..=191,
+    194..=205,
+    207..=215,
+    227..=227,
+    229..=242,
+    245..=245,
+    333..=366,
+    400..=403,
+    4447..=4447,
+    6016..=6035,
+];
+/// OpRayQueryProceedKHR and OpRayQueryGetIntersectionTypeKHR.
+const WITH_RESULT_OF_QUERIES: [u32; 2] = [4477, 4479];
+
+/// Returns true if this crate knows the operands of all instructions that matter to it. Other modules, such
+/// as those with grouped decorations or debug information that names variables, are left as they are.
+pub(crate) fn is_understood(words: &[u32]) -> bool {
+    let mut within = false;
+    let mut wide_integers = false;
+    let mut switches = false;
+    for each in instructions(words) {
+        let code = operation(each);
+        if each.len() != (each[0] >> 16) as usize {
+            return false;
+        }
+        within |= code == op::FUNCTION;
+        wide_integers |= code == op::TYPE_INT && each.get(2) == Some(&64);
+        switches |= code == op::SWITCH;
+        let is_known = if within {
+            code == op::LABEL
+                || WITHOUT_RESULT.contains(&code)
+                || WITH_RESULT_OF_QUERIES.contains(&code)
+                || WITH_RESULT.iter().any(|codes| codes.contains(&code))
+        } else {
+            ![op::EXT_INST, op::DECORATE_ID].contains(&code) && !op::GROUPED_DECORATIONS.contains(&code)
+        };
+        if !is_known {
+            return false;
+        }
+    }
+    // The numbers of the cases are a word each.
+    !(wide_integers && switches)
+}
+
 /// Iterates over the instructions of a module; the last one is cut where the module is cut.
 pub(crate) fn instructions(words: &[u32]) -> impl Iterator<Item = &[u32]> {
     let mut rest = words.get(HEADER_WORDS..).unwrap_or_default();
@@ -107,7 +170,7 @@ pub(crate) fn result(instruction: &[u32]) -> Option<u32> {
 /// Returns the id that a name or a decoration is for.
 pub(crate) fn annotated(instruction: &[u32]) -> Option<u32> {
     match operation(instruction) {
-        op::NAME | op::DECORATE | op::DECORATE_ID | op::DECORATE_STRING => instruction.get(1).copied(),
+        op::NAME | op::DECORATE | op::DECORATE_STRING => instruction.get(1).copied(),
         _ => None,
     }
 }

@@ -7,24 +7,38 @@
 
 use std::collections::{HashMap, HashSet};
 
-use crate::instruction::{annotated, filtered, instructions, op, operation, result};
+use crate::instruction::{annotated, filtered, instructions, is_understood, op, operation, result};
 
 /// Opcodes of debug text: OpSourceContinued, OpSource, OpSourceExtension, OpName, OpMemberName, OpString,
 /// OpLine, OpNoLine, OpModuleProcessed.
 const DEBUG: [u32; 9] = [2, 3, 4, 5, 6, 7, 8, 317, 330];
+/// Storage class Output.
+const OUTPUT: u32 = 3;
 /// Opcodes of instructions of functions whose operands are not variables, or are numbers that could be
 /// mistaken for one: OpVectorShuffle, OpCompositeExtract, OpCompositeInsert, OpLoopMerge, OpSelectionMerge,
 /// OpBranchConditional, OpSwitch, OpLine.
 const NAMES_NO_VARIABLE: [u32; 8] = [8, 79, 81, 82, 246, 247, 250, 251];
 
-/// Returns a module without names, source text and lines, none of which changes its effect.
+/// Returns a module without names, source text and lines, none of which changes its effect. Strings that
+/// instructions print stay.
 pub fn without_debug_text(words: &[u32]) -> Vec<u32> {
-    filtered(words, |instruction| (!DEBUG.contains(&operation(instruction))).then(|| instruction.into()))
+    let printing = instructions(words).filter(|instruction| operation(instruction) == op::EXT_INST);
+    let operands = printing.flat_map(|instruction| instruction.get(5..).unwrap_or_default());
+    let printed: HashSet<u32> = operands.copied().collect();
+    filtered(words, |instruction| {
+        let is_printed =
+            operation(instruction) == op::STRING && instruction.get(1).is_some_and(|id| printed.contains(id));
+        (is_printed || !DEBUG.contains(&operation(instruction))).then(|| instruction.into())
+    })
 }
 
 /// Returns a module without the functions that its entry points do not reach, and without the variables that
-/// only those functions use.
+/// only those functions use. Outputs stay, which a later stage may read, and so does a module with
+/// instructions that this crate does not know.
 pub fn only_reached(words: &[u32]) -> Vec<u32> {
+    if !is_understood(words) {
+        return words.to_vec();
+    }
     let functions = Functions::of(words);
     let reached = functions.reached();
     let mut named = HashSet::new();
@@ -38,11 +52,12 @@ pub fn only_reached(words: &[u32]) -> Vec<u32> {
             }
         }
     }
-    // Variables of the module precede its functions.
-    for instruction in instructions(words).take_while(|instruction| operation(instruction) != op::FUNCTION) {
-        if operation(instruction) == op::VARIABLE {
-            gone.extend(result(instruction).filter(|id| !named.contains(id)));
-        }
+    // Variables of the module precede its functions. One may begin as the address of another.
+    let head = || instructions(words).take_while(|instruction| operation(instruction) != op::FUNCTION);
+    let variables = || head().filter(|instruction| operation(instruction) == op::VARIABLE);
+    named.extend(variables().filter_map(|variable| variable.get(4).copied()));
+    for variable in variables().filter(|variable| variable.get(3) != Some(&OUTPUT)) {
+        gone.extend(result(variable).filter(|id| !named.contains(id)));
     }
     let mut function = None;
     filtered(words, |instruction| {
@@ -193,6 +208,28 @@ mod tests {
         let kept = without_debug_text(&module());
         assert!(instructions(&kept).all(|each| operation(each) != op::NAME));
         assert_eq!(kept.len() + 3 * 3, module().len());
+    }
+
+    #[test]
+    fn outputs_and_strings_that_are_printed_stay() {
+        let mut words = module();
+        let mut add = |place, operation, operands: &[u32]| {
+            words.splice(place..place, instruction(operation, operands));
+        };
+        add(5, op::STRING, &[30, 0x61]);
+        add(5, op::STRING, &[31, 0x61]);
+        let functions =
+            words.windows(2).position(|pair| pair == [5 << 16 | op::FUNCTION, 20]).expect("there");
+        // An output that nothing uses, and an extended instruction, number 30, that prints string 31.
+        words.splice(functions..functions, instruction(op::VARIABLE, &[20, 15, OUTPUT]));
+        let body = functions + 4 + 5 + 2;
+        words.splice(body..body, instruction(op::EXT_INST, &[20, 36, 35, 30, 31]));
+        let kept = without_debug_text(&only_reached(&words));
+        let of = |wanted| -> Vec<&[u32]> {
+            instructions(&kept).filter(|each| operation(each) == wanted).map(|each| &each[1..]).collect()
+        };
+        assert_eq!(of(op::STRING), [[31, 0x61]]);
+        assert_eq!(of(op::VARIABLE).iter().map(|each| each[1]).collect::<Vec<_>>(), [11, 12, 15]);
     }
 
     #[test]

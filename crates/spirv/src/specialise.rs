@@ -4,7 +4,9 @@ use std::collections::{HashMap, HashSet};
 
 use crate::flow::{Block, Function, functions};
 use crate::fold::folded;
-use crate::instruction::{HEADER_WORDS, annotated, instruction, instructions, op, operation, result};
+use crate::instruction::{
+    HEADER_WORDS, annotated, instruction, instructions, is_understood, op, operation, result,
+};
 use crate::reduce::only_reached;
 
 const DECORATION_SPEC_ID: u32 = 1;
@@ -14,14 +16,15 @@ const DECORATION_SPEC_ID: u32 = 1;
 /// given have the values of the module. The constants themselves stay, so the values must be given to the
 /// pipeline as well.
 ///
-/// What runs is unchanged, instruction by instruction. A module keeps all its branches if one of its loops
-/// would lose the one that leads back, which loops must have. Takes time linear in the words for each branch
-/// that depends on another, in practice three to five passes.
+/// What runs is unchanged, instruction by instruction. A module keeps all its branches where the rest would
+/// not have the form that SPIR-V asks for, and stays as it is with instructions that this crate does not
+/// know. Takes time linear in the words for each branch that depends on another, in practice three to five
+/// passes.
 pub fn specialised(words: &[u32], constants: &[(u32, u32)]) -> Vec<u32> {
-    let all: Vec<&[u32]> = instructions(words).collect();
-    if all.iter().any(|each| each.len() != (each[0] >> 16) as usize) {
+    if !is_understood(words) {
         return words.to_vec();
     }
+    let all: Vec<&[u32]> = instructions(words).collect();
     let mut known = values(&all, constants);
     let mut functions = functions(&all);
     let mut returns = HashMap::new();
@@ -32,7 +35,7 @@ pub fn specialised(words: &[u32], constants: &[(u32, u32)]) -> Vec<u32> {
             changed |= function.narrow(&mut known, &mut returns);
         }
     }
-    if !functions.iter().all(Function::has_whole_loops) {
+    if !functions.iter().all(Function::is_whole) {
         return only_reached(words);
     }
     let head = functions.first().map_or(all.len(), |first| first.first);

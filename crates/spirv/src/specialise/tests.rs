@@ -227,6 +227,87 @@ fn a_module_whose_loop_would_lose_its_branch_back_stays_whole() {
     assert!(left.contains(&(op::BRANCH, vec![33])), "{left:?}");
 }
 
+/// True if the entry of a module changes where the switch is on.
+fn is_decided(words: &[u32]) -> bool {
+    body(&specialised(words, &[(7, 1)]), 1) != body(words, 1)
+}
+
+#[test]
+fn blocks_that_would_precede_what_leads_to_them_stay() {
+    let at = |meeting_first: bool| {
+        let begin: [Line<'_>; 3] = [
+            (op::LABEL, &[30]),
+            (op::SELECTION_MERGE, &[33, 0]),
+            (op::BRANCH_CONDITIONAL, &[SWITCH, 31, 32]),
+        ];
+        let sides: [Line<'_>; 4] =
+            [(op::LABEL, &[31]), (op::BRANCH, &[33]), (op::LABEL, &[32]), (op::BRANCH, &[33])];
+        let meeting: [Line<'_>; 3] = [(op::LABEL, &[33]), (62, &[UNKNOWN, SWITCH]), RETURN];
+        let order = if meeting_first { [&meeting[..], &sides] } else { [&sides[..], &meeting] };
+        module(&[(1, &[&begin[..], order[0], order[1]].concat())])
+    };
+    assert_eq!([true, false].map(|meeting_first| is_decided(&at(meeting_first))), [false, true]);
+}
+
+#[test]
+fn a_selection_that_is_left_from_within_keeps_its_merge() {
+    // The side that is taken branches to the meeting place without a merge instruction of its own.
+    let words = module(&[(
+        1,
+        &[
+            (op::LABEL, &[30]),
+            (op::SELECTION_MERGE, &[33, 0]),
+            (op::BRANCH_CONDITIONAL, &[SWITCH, 31, 33]),
+            (op::LABEL, &[31]),
+            (op::BRANCH_CONDITIONAL, &[UNKNOWN, 32, 33]),
+            (op::LABEL, &[32]),
+            (op::BRANCH, &[33]),
+            (op::LABEL, &[33]),
+            RETURN,
+        ],
+    )]);
+    assert!(!is_decided(&words));
+}
+
+#[test]
+fn numbers_of_cases_are_no_labels() {
+    // Case 32, a number, leads to block 31; block 32 is on the side that is not taken.
+    let words = module(&[(
+        1,
+        &[
+            (op::LABEL, &[30]),
+            (op::SELECTION_MERGE, &[34, 0]),
+            (op::BRANCH_CONDITIONAL, &[SWITCH, 35, 32]),
+            (op::LABEL, &[35]),
+            (op::SELECTION_MERGE, &[33, 0]),
+            (op::SWITCH, &[UNKNOWN, 33, 32, 31]),
+            (op::LABEL, &[31]),
+            (op::BRANCH, &[33]),
+            (op::LABEL, &[33]),
+            (op::BRANCH, &[34]),
+            (op::LABEL, &[32]),
+            (op::BRANCH, &[34]),
+            (op::LABEL, &[34]),
+            RETURN,
+        ],
+    )]);
+    let left = body(&specialised(&words, &[(7, 1)]), 1);
+    assert!(left.contains(&(op::LABEL, vec![31])) && !left.contains(&(op::LABEL, vec![32])), "{left:?}");
+}
+
+#[test]
+fn modules_with_unknown_instructions_stay_as_they_are() {
+    let known = two_sides(SWITCH, &[], &[]);
+    assert_ne!(specialised(&known, &[]), known);
+    // OpExecuteCallableKHR; a group of decorations, which may be those of a constant.
+    let in_function = two_sides(SWITCH, &[(4446, &[ONE, UNKNOWN])], &[]);
+    let mut in_head = known;
+    in_head.splice(5..5, instruction(op::GROUPED_DECORATIONS[0], &[60]));
+    for words in [in_function, in_head] {
+        assert_eq!(specialised(&words, &[]), words);
+    }
+}
+
 #[test]
 fn words_that_are_no_module_are_no_panic() {
     let whole = two_sides(SWITCH, &[], &[]);
