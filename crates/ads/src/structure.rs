@@ -135,7 +135,8 @@ pub trait Structure: Send + Sync {
 
     /// Reads the outcome of the last build of a slot, after its submission has ended. From then on,
     /// [`Structure::report`] and [`Structure::rounds`] refer to this build. A slot without a build so far is
-    /// incomplete, and [`Structure::check`] then returns the present sizes.
+    /// incomplete, and [`Structure::check`] then returns the present sizes. Brute force builds nothing: all
+    /// its slots are complete once one was recorded.
     ///
     /// # Errors
     /// The slot does not exist, or host-visible memory could not be read.

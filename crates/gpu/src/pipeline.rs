@@ -76,8 +76,8 @@ impl RasterPipeline {
 impl Device {
     /// Makes a compute pipeline. The driver is handed what the constants leave of the module
     /// ([`rasray_spirv::specialised`]), and the layout has the bindings that are left. A further call with
-    /// the same module, constants and layouts returns a handle to the same pipeline, as long as a handle to it
-    /// exists or [`Device::keep_pipelines`] keeps it.
+    /// the same module, constants and layouts returns a handle to the same pipeline, as long as a handle to
+    /// it exists or [`Device::keep_pipelines`] keeps it.
     ///
     /// # Errors
     /// [`GpuError::InvalidShader`] for words that are not a module, [`GpuError::LimitExceeded`] for too many
