@@ -90,10 +90,9 @@ impl Device {
             stages: vk::ShaderStageFlags::COMPUTE,
             bind_point: vk::PipelineBindPoint::COMPUTE,
         };
-        let modules = [desc.spirv];
-        let recipe = asked.recipe(&modules, desc.constants, RasterOptions::default());
-        let inner = self.shared_pipeline(&asked, modules, recipe, |layout, [spirv]| {
-            let module = Module::create(&self.core, desc.name, spirv)?;
+        let recipe = asked.recipe(&[desc.spirv], desc.constants, RasterOptions::default());
+        let inner = self.shared_pipeline(&asked, recipe, |layout, modules| {
+            let module = Module::create(&self.core, desc.name, &modules[0])?;
             let values = Specialisation::new(desc.constants);
             let specialisation = values.info();
             let stage = module.stage(vk::ShaderStageFlags::COMPUTE, &specialisation);
@@ -141,58 +140,54 @@ impl Device {
             stages: vk::ShaderStageFlags::VERTEX | vk::ShaderStageFlags::FRAGMENT,
             bind_point: vk::PipelineBindPoint::GRAPHICS,
         };
-        let modules = [desc.vertex_spirv, desc.fragment_spirv];
-        let recipe = asked.recipe(&modules, desc.constants, options);
-        let inner =
-            self.shared_pipeline(&asked, modules, recipe, |layout, [vertex_spirv, fragment_spirv]| {
-                let vertex = Module::create(core, desc.name, vertex_spirv)?;
-                let fragment = Module::create(core, desc.name, fragment_spirv)?;
-                let values = Specialisation::new(desc.constants);
-                let specialisation = values.info();
-                let stages = [
-                    vertex.stage(vk::ShaderStageFlags::VERTEX, &specialisation),
-                    fragment.stage(vk::ShaderStageFlags::FRAGMENT, &specialisation),
-                ];
-                let vertex_input = vk::PipelineVertexInputStateCreateInfo::default();
-                let assembly = vk::PipelineInputAssemblyStateCreateInfo::default()
-                    .topology(vk::PrimitiveTopology::TRIANGLE_LIST);
-                let viewport =
-                    vk::PipelineViewportStateCreateInfo::default().viewport_count(1).scissor_count(1);
-                let mut conservative = vk::PipelineRasterizationConservativeStateCreateInfoEXT::default()
-                    .conservative_rasterization_mode(vk::ConservativeRasterizationModeEXT::OVERESTIMATE);
-                let mut rasterization = vk::PipelineRasterizationStateCreateInfo::default()
-                    .polygon_mode(vk::PolygonMode::FILL)
-                    .cull_mode(vk::CullModeFlags::NONE)
-                    .front_face(vk::FrontFace::COUNTER_CLOCKWISE)
-                    .line_width(1.0);
-                if options.conservative {
-                    rasterization = rasterization.push_next(&mut conservative);
-                }
-                let multisample = vk::PipelineMultisampleStateCreateInfo::default()
-                    .rasterization_samples(vk::SampleCountFlags::TYPE_1);
-                let depth_stencil = vk::PipelineDepthStencilStateCreateInfo::default();
-                let blend = vk::PipelineColorBlendStateCreateInfo::default();
-                let dynamic = [vk::DynamicState::VIEWPORT, vk::DynamicState::SCISSOR];
-                let dynamic = vk::PipelineDynamicStateCreateInfo::default().dynamic_states(&dynamic);
-                let mut rendering = vk::PipelineRenderingCreateInfo::default().view_mask(options.view_mask);
-                let info = vk::GraphicsPipelineCreateInfo::default()
-                    .stages(&stages)
-                    .vertex_input_state(&vertex_input)
-                    .input_assembly_state(&assembly)
-                    .viewport_state(&viewport)
-                    .rasterization_state(&rasterization)
-                    .multisample_state(&multisample)
-                    .depth_stencil_state(&depth_stencil)
-                    .color_blend_state(&blend)
-                    .dynamic_state(&dynamic)
-                    .layout(layout)
-                    .push_next(&mut rendering);
-                // SAFETY: as for compute pipelines; the features for dynamic rendering and the options were
-                // checked.
-                let made =
-                    unsafe { core.device.create_graphics_pipelines(core.pipeline_cache, &[info], None) };
-                first_pipeline(core, made, "vkCreateGraphicsPipelines", desc.name)
-            })?;
+        let recipe = asked.recipe(&[desc.vertex_spirv, desc.fragment_spirv], desc.constants, options);
+        let inner = self.shared_pipeline(&asked, recipe, |layout, modules| {
+            let vertex = Module::create(core, desc.name, &modules[0])?;
+            let fragment = Module::create(core, desc.name, &modules[1])?;
+            let values = Specialisation::new(desc.constants);
+            let specialisation = values.info();
+            let stages = [
+                vertex.stage(vk::ShaderStageFlags::VERTEX, &specialisation),
+                fragment.stage(vk::ShaderStageFlags::FRAGMENT, &specialisation),
+            ];
+            let vertex_input = vk::PipelineVertexInputStateCreateInfo::default();
+            let assembly = vk::PipelineInputAssemblyStateCreateInfo::default()
+                .topology(vk::PrimitiveTopology::TRIANGLE_LIST);
+            let viewport = vk::PipelineViewportStateCreateInfo::default().viewport_count(1).scissor_count(1);
+            let mut conservative = vk::PipelineRasterizationConservativeStateCreateInfoEXT::default()
+                .conservative_rasterization_mode(vk::ConservativeRasterizationModeEXT::OVERESTIMATE);
+            let mut rasterization = vk::PipelineRasterizationStateCreateInfo::default()
+                .polygon_mode(vk::PolygonMode::FILL)
+                .cull_mode(vk::CullModeFlags::NONE)
+                .front_face(vk::FrontFace::COUNTER_CLOCKWISE)
+                .line_width(1.0);
+            if options.conservative {
+                rasterization = rasterization.push_next(&mut conservative);
+            }
+            let multisample = vk::PipelineMultisampleStateCreateInfo::default()
+                .rasterization_samples(vk::SampleCountFlags::TYPE_1);
+            let depth_stencil = vk::PipelineDepthStencilStateCreateInfo::default();
+            let blend = vk::PipelineColorBlendStateCreateInfo::default();
+            let dynamic = [vk::DynamicState::VIEWPORT, vk::DynamicState::SCISSOR];
+            let dynamic = vk::PipelineDynamicStateCreateInfo::default().dynamic_states(&dynamic);
+            let mut rendering = vk::PipelineRenderingCreateInfo::default().view_mask(options.view_mask);
+            let info = vk::GraphicsPipelineCreateInfo::default()
+                .stages(&stages)
+                .vertex_input_state(&vertex_input)
+                .input_assembly_state(&assembly)
+                .viewport_state(&viewport)
+                .rasterization_state(&rasterization)
+                .multisample_state(&multisample)
+                .depth_stencil_state(&depth_stencil)
+                .color_blend_state(&blend)
+                .dynamic_state(&dynamic)
+                .layout(layout)
+                .push_next(&mut rendering);
+            // SAFETY: as for compute pipelines; the features for dynamic rendering and the options were
+            // checked.
+            let made = unsafe { core.device.create_graphics_pipelines(core.pipeline_cache, &[info], None) };
+            first_pipeline(core, made, "vkCreateGraphicsPipelines", desc.name)
+        })?;
         Ok(RasterPipeline { inner })
     }
 
@@ -204,14 +199,13 @@ impl Device {
         self.core.pipelines.keep(self.core.usable_device(), count);
     }
 
-    /// Returns the pipeline that was made by the recipe before, or makes it with `compile` from what of its
-    /// modules runs.
-    fn shared_pipeline<const N: usize>(
+    /// Returns the pipeline that was made by the recipe before, or makes it with `compile` from its modules,
+    /// in the recipe's order, as far as they run.
+    fn shared_pipeline(
         &self,
         asked: &PipelineRequest<'_>,
-        modules: [&[u32]; N],
         recipe: Recipe,
-        compile: impl FnOnce(vk::PipelineLayout, [&[u32]; N]) -> Result<vk::Pipeline>,
+        compile: impl FnOnce(vk::PipelineLayout, &[Vec<u32>]) -> Result<vk::Pipeline>,
     ) -> Result<Arc<PipelineInner>> {
         let core = &self.core;
         self.check_pipeline(asked)?;
@@ -219,11 +213,11 @@ impl Device {
         let (recipe, made) = match core.pipelines.find(&recipe) {
             Some(found) => found,
             None => {
-                let modules = modules.map(|words| specialised(words, &recipe.constants));
-                let modules = modules.each_ref().map(Vec::as_slice);
+                let modules = recipe.modules.iter().map(|words| specialised(words, &recipe.constants));
+                let modules: Vec<Vec<u32>> = modules.collect();
                 let used = self.used_bindings(asked, &modules)?;
                 let layout = Layout::create(core, asked, &used)?;
-                let raw = compile(layout.raw, modules)?;
+                let raw = compile(layout.raw, &modules)?;
                 core.name_object(raw, asked.name);
                 let made = PipelineObjects { raw, layout: layout.into_raw(), used };
                 core.pipelines.insert(&core.device, recipe, made)
@@ -245,7 +239,7 @@ impl Device {
     }
 
     /// Returns the masks of the bindings of each set that the modules of a pipeline use.
-    fn used_bindings(&self, asked: &PipelineRequest<'_>, modules: &[&[u32]]) -> Result<Arc<[Mask]>> {
+    fn used_bindings(&self, asked: &PipelineRequest<'_>, modules: &[Vec<u32>]) -> Result<Arc<[Mask]>> {
         let name = asked.name;
         let mut used = vec![0; asked.sets.len()];
         for module in modules {

@@ -80,7 +80,7 @@ const WITHOUT_RESULT: [u32; 25] = [
 /// Opcodes of instructions of functions with a result, whose second operand is its id: of objects and memory,
 /// of images, of numbers, of derivatives, of atomics, OpPhi, of subgroups, OpCopyLogical to OpPtrDiff, of ray
 /// queries.
-const WITH_RESULT: [RangeInclusive<u32>; 21] = [
+const WITH_RESULT: [RangeInclusive<u32>; 23] = [
     1..=1,
     12..=12,
     54..=55,
@@ -101,10 +101,10 @@ const WITH_RESULT: [RangeInclusive<u32>; 21] = [
     333..=366,
     400..=403,
     4447..=4447,
+    4477..=4477,
+    4479..=4479,
     6016..=6035,
 ];
-/// OpRayQueryProceedKHR and OpRayQueryGetIntersectionTypeKHR.
-const WITH_RESULT_OF_QUERIES: [u32; 2] = [4477, 4479];
 
 /// Returns true if this crate knows the operands of all instructions that matter to it. Other modules, such
 /// as those with grouped decorations or debug information that names variables, are left as they are.
@@ -123,7 +123,6 @@ pub(crate) fn is_understood(words: &[u32]) -> bool {
         let is_known = if within {
             code == op::LABEL
                 || WITHOUT_RESULT.contains(&code)
-                || WITH_RESULT_OF_QUERIES.contains(&code)
                 || WITH_RESULT.iter().any(|codes| codes.contains(&code))
         } else {
             ![op::EXT_INST, op::DECORATE_ID].contains(&code) && !op::GROUPED_DECORATIONS.contains(&code)

@@ -36,9 +36,11 @@ pub fn without_debug_text(words: &[u32]) -> Vec<u32> {
 /// only those functions use. Outputs stay, which a later stage may read, and so does a module with
 /// instructions that this crate does not know.
 pub fn only_reached(words: &[u32]) -> Vec<u32> {
-    if !is_understood(words) {
-        return words.to_vec();
-    }
+    if is_understood(words) { reduced(words) } else { words.to_vec() }
+}
+
+/// Returns an understood module as [`only_reached`] does.
+pub(crate) fn reduced(words: &[u32]) -> Vec<u32> {
     let functions = Functions::of(words);
     let reached = functions.reached();
     let mut named = HashSet::new();

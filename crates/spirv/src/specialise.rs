@@ -7,7 +7,7 @@ use crate::fold::folded;
 use crate::instruction::{
     HEADER_WORDS, annotated, instruction, instructions, is_understood, op, operation, result,
 };
-use crate::reduce::only_reached;
+use crate::reduce::reduced;
 
 const DECORATION_SPEC_ID: u32 = 1;
 
@@ -36,7 +36,7 @@ pub fn specialised(words: &[u32], constants: &[(u32, u32)]) -> Vec<u32> {
         }
     }
     if !functions.iter().all(Function::is_whole) {
-        return only_reached(words);
+        return reduced(words);
     }
     let head = functions.first().map_or(all.len(), |first| first.first);
     let mut written = Written { bound: words.get(3).copied().unwrap_or_default(), ..Written::default() };
@@ -52,7 +52,7 @@ pub fn specialised(words: &[u32], constants: &[(u32, u32)]) -> Vec<u32> {
     if let Some(bound) = narrowed.get_mut(3) {
         *bound = written.bound;
     }
-    only_reached(&narrowed)
+    reduced(&narrowed)
 }
 
 /// Returns the values of the module's scalar constants of 32 bits.
@@ -124,13 +124,13 @@ impl Written {
         // Where loops continue, with their first blocks.
         let continues: HashMap<u32, &Block<'_>> =
             live().filter_map(|block| Some((block.continues_at()?, block))).collect();
-        let dead = |label: &u32| function.blocks.iter().any(|block| block.label == *label && !block.is_live);
-        // Values of the phis of loops that nothing continues: a loop must have an end that leads back.
+        // Values of the phis of loops that nothing continues: a loop must have an end that leads back. They
+        // are numbered in the order of blocks, so that equal modules give equal words.
         let mut undefined: HashMap<u32, (u32, u32)> = HashMap::new();
-        for (at, first) in continues.iter().filter(|(at, _)| dead(at)) {
-            for phi in first.phis() {
+        for block in function.blocks.iter().filter(|block| !block.is_live) {
+            for phi in continues.get(&block.label).iter().flat_map(|first| first.phis()) {
                 let id = self.id();
-                undefined.extend(result(phi).map(|result| (result, (id, *at))));
+                undefined.extend(result(phi).map(|result| (result, (id, block.label))));
             }
         }
         function.head.iter().for_each(|each| self.instruction(each));
