@@ -1,5 +1,13 @@
 //! Posed triangles, the input of every structure.
 
+pub(crate) mod bounds_pass;
+pub(crate) mod desc;
+pub(crate) mod extent;
+mod gather;
+pub(crate) mod parts;
+mod record;
+mod stamp;
+
 use std::mem::offset_of;
 
 use bytemuck::{Pod, Zeroable, bytes_of, cast_slice, pod_read_unaligned};
@@ -13,8 +21,8 @@ use rasray_shaders_glsl::constants::ads::{
 };
 use rasray_shaders_glsl::constants::contract::STATUS_FLAGS;
 
-use crate::geometry_gather::{Count, Gather, TRIANGLE_INDEX_BYTES, pipeline, whole};
-use crate::geometry_stamp::{STAMP_STEP, new_stamps};
+use crate::geometry::gather::{Count, Gather, TRIANGLE_INDEX_BYTES, pipeline, whole};
+use crate::geometry::stamp::{STAMP_STEP, new_stamps};
 use crate::{AdsError, GeometryDesc, GeometryExtent, GeometryHeader, GeometryRigid, IndexRange};
 
 /// Number of buffers in the geometry set.

@@ -18,19 +18,35 @@
 //! | traces and surfaces | [`TraceKernels`], [`TraceKernelsDesc`], [`TraceModules`], [`Lookup`] |
 //! | stale builds | [`box_is_same`] |
 
-pub use crate::addressing::{Modules, TraceModules};
-pub use crate::configured::{Common, Configured, check_range, check_work_budget};
-pub use crate::design::{Demand, Design, Parts, default_work_budget};
-pub use crate::groups::folded;
-pub use crate::kernels::{Lookup, TraceKernels, TraceKernelsDesc};
-pub use crate::lengths::Lengths;
-pub use crate::list_sort::ListSort;
-pub use crate::passes::{BuildPipelines, BuildTarget, ViewDraw};
-pub use crate::pool_name::{HEADER_POOL, PoolBytes, PoolContents, PoolName, bytes_of_words};
-pub use crate::pooled::{Pooled, VARYING_SHARE};
-pub use crate::pools::Pools;
-pub use crate::pyramid::Pyramid;
-pub use crate::scan::Scan;
-pub use crate::scratch::Scratch;
+pub(crate) mod addressing;
+mod configured;
+mod design;
+pub(crate) mod groups;
+pub(crate) mod kernels;
+mod lengths;
+mod list_sort;
+mod passes;
+mod pool_name;
+mod pooled;
+mod pools;
+mod pyramid;
+mod scan;
+mod scratch;
+pub(crate) mod visit;
+
 pub use crate::viewpoint::box_is_same;
-pub use crate::visit::{LargePass, Visit, Visits, bin_groups};
+pub use addressing::{Modules, TraceModules};
+pub use configured::{Common, Configured, check_range, check_work_budget};
+pub use design::{Demand, Design, Parts, default_work_budget};
+pub use groups::folded;
+pub use kernels::{Lookup, TraceKernels, TraceKernelsDesc};
+pub use lengths::Lengths;
+pub use list_sort::ListSort;
+pub use passes::{BuildPipelines, BuildTarget, ViewDraw};
+pub use pool_name::{HEADER_POOL, PoolBytes, PoolContents, PoolName, bytes_of_words};
+pub use pooled::{Pooled, VARYING_SHARE};
+pub use pools::Pools;
+pub use pyramid::Pyramid;
+pub use scan::Scan;
+pub use scratch::Scratch;
+pub use visit::{LargePass, Visit, Visits, bin_groups};

@@ -37,41 +37,19 @@
 //! a barrier that makes their results visible to compute shaders and transfers recorded after them.
 //! Data that they read must be visible to compute, vertex and fragment shaders before.
 
-mod addressing;
-mod bounds_pass;
 mod brute_force;
 mod combined;
-mod configured;
 mod counters;
 mod description;
-mod design;
 mod ends;
 mod error;
 mod geometry;
-mod geometry_desc;
-mod geometry_extent;
-mod geometry_gather;
-mod geometry_parts;
-mod geometry_record;
-mod geometry_stamp;
-mod groups;
 mod inspect;
-mod kernels;
 pub mod kit;
-mod lengths;
 mod list_counts;
-mod list_sort;
 mod occluder;
-mod passes;
-mod pool_name;
-mod pooled;
-mod pools;
-mod pyramid;
 mod queue;
-mod queue_buffers;
-mod scan;
 mod scene_binding;
-mod scratch;
 mod sizes;
 mod slots;
 mod status;
@@ -79,7 +57,6 @@ mod steps;
 mod structure;
 mod trace;
 mod viewpoint;
-mod visit;
 mod words;
 
 // The contract between structures and hosts.
@@ -91,11 +68,11 @@ pub use structure::{InlineTrace, Structure, StructureReport};
 pub use viewpoint::{CameraView, Viewpoint};
 
 // Options that several structures have, and facts about a structure.
-pub use addressing::Addressing;
 pub use counters::Counters;
 pub use description::{Dependencies, Description, StructureKind};
 pub use ends::Ends;
-pub use visit::Builder;
+pub use kit::addressing::Addressing;
+pub use kit::visit::Builder;
 
 // Builds and their outcomes.
 pub use list_counts::ListCounts;
@@ -103,16 +80,16 @@ pub use sizes::{PoolSize, Sizes};
 pub use status::{BuildStatus, Check, Growth, PoolStatus};
 
 // Triangles.
-pub use bounds_pass::BoundsPass;
+pub use geometry::bounds_pass::BoundsPass;
+pub use geometry::desc::{BufferOffset, GeometryDesc, IndexFormat, IndexRange, Indexing, PositionRange};
+pub use geometry::extent::GeometryExtent;
+pub use geometry::parts::{GeometryParts, MovingPart, PartRays, Rest};
 pub use geometry::{Geometry, NO_MAP};
-pub use geometry_desc::{BufferOffset, GeometryDesc, IndexFormat, IndexRange, Indexing, PositionRange};
-pub use geometry_extent::GeometryExtent;
-pub use geometry_parts::{GeometryParts, MovingPart, PartRays, Rest};
 
 // Rays and traces.
-pub use kernels::TracedPart;
+pub use kit::kernels::TracedPart;
+pub use queue::buffers::QueueBuffers;
 pub use queue::{Domain, QueueCounters, QueueParts, RayQueue};
-pub use queue_buffers::QueueBuffers;
 pub use rasray_gpu::TraceMode;
 pub use steps::{SkipReason, StepKind, TestVerdict, TraceStep};
 pub use trace::{Start, Trace};

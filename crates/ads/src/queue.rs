@@ -1,5 +1,7 @@
 //! Queues of rays on the device.
 
+pub(crate) mod buffers;
+
 use std::mem::offset_of;
 
 use bytemuck::{Zeroable, bytes_of};
@@ -10,7 +12,7 @@ use rasray_gpu::{
 use rasray_shaders_glsl::constants::contract::{DOMAIN_SELECTED, QUEUE_GROUP_SIZE};
 use rasray_shaders_glsl::records::QueueTakeConstants;
 
-use crate::queue_buffers::{BUFFERS, HEADER, STEPS};
+use crate::queue::buffers::{BUFFERS, HEADER, STEPS};
 use crate::{AdsError, Hit, QueueBuffers, QueueHeader, Ray, RayWork, Surface, TraceState, TraceStep};
 
 /// Bytes before the first step: the logged slot and the number of steps, one u32 each.

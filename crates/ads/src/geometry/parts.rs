@@ -12,9 +12,9 @@ use rasray_shaders_glsl::constants::contract::PARTS_MOST;
 use rasray_shaders_glsl::records::QueueMeetConstants;
 use rasray_shaders_glsl::{ADS_QUEUE_MEET, ADS_QUEUE_NOTE};
 
+use crate::geometry::gather::pipeline;
 use crate::geometry::{Run, Space};
-use crate::geometry_gather::pipeline;
-use crate::kernels::record_first_round;
+use crate::kit::kernels::record_first_round;
 use crate::{
     AdsError, Domain, Geometry, GeometryDesc, GeometryHeader, PositionRange, QueueHeader, RayQueue, TraceMode,
 };

@@ -5,12 +5,14 @@ use bytemuck::bytes_of;
 use rasray_gpu::{
     Access, BindingSet, ComputePipeline, ComputePipelineDesc, Device, Recorder, SetLayout, Stage,
 };
+use rasray_shaders_glsl::Shader;
+use rasray_shaders_glsl::constant_ids::contract::{COUNTERS, NESTED_SEARCH};
 use rasray_shaders_glsl::constants::ads::{PART_AFTER, PART_FIRST, PART_NEXT, PART_WHOLE};
 use rasray_shaders_glsl::records::{NextRoundConstants, TraceConstants};
-use rasray_shaders_glsl::{Shader, constant_ids::contract::COUNTERS};
 
-use crate::addressing::halves;
 use crate::kit::TraceModules;
+use crate::kit::addressing::halves;
+use crate::kit::design::nests_searches;
 use crate::{
     AdsError, Counters, Domain, Geometry, QueueHeader, RayQueue, SceneBinding, Start, Trace, TraceMode,
 };
@@ -89,7 +91,8 @@ impl TraceKernels {
         if let Some(scene) = desc.scene {
             sets.push(&scene.layout);
         }
-        let mut constants = vec![(COUNTERS, desc.counters.constant())];
+        let nested = u32::from(nests_searches(device.driver()));
+        let mut constants = vec![(COUNTERS, desc.counters.constant()), (NESTED_SEARCH, nested)];
         constants.extend_from_slice(desc.constants);
         constants.extend(desc.scene.iter().flat_map(|scene| &scene.constants));
         let pipeline = |shader: &'static Shader| {

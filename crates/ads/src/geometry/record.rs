@@ -5,9 +5,9 @@ use std::mem::offset_of;
 use bytemuck::bytes_of;
 use rasray_gpu::{Access, BindingSet, Buffer, ComputePipeline, Recorder};
 
+use crate::geometry::gather::{Count, DRAW_ARGUMENT_BYTES, Gather};
 use crate::geometry::gathers;
-use crate::geometry_gather::{Count, DRAW_ARGUMENT_BYTES, Gather};
-use crate::groups::folded;
+use crate::kit::groups::folded;
 use crate::{Geometry, GeometryHeader, GeometryRigid};
 
 /// Triangles per workgroup of `ads/geometry_check`, `ads/geometry_gather` and `ads/geometry_bounds`.

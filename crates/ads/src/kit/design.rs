@@ -23,6 +23,15 @@ pub fn default_work_budget(device: &Device) -> u32 {
     if device.is_software() { TRACE_WORK_BUDGET } else { HARDWARE_WORK_BUDGET }
 }
 
+/// Returns true if a search of a list should find the next entry in a loop of its own on a driver, which does
+/// not change any hit. Invocations that run together then test together, which a driver needs that runs both
+/// sides of every branch. Mesa's software driver does so in version 22; in version 25 it jumps over sides that
+/// no invocation takes.
+pub(crate) fn nests_searches(driver: &str) -> bool {
+    let mesa = driver.strip_prefix("llvmpipe Mesa ").and_then(|version| version.split('.').next());
+    mesa.and_then(|major| major.parse().ok()).is_none_or(|major: u32| major < 25)
+}
+
 /// Numbers of elements that only a build counts, and other inputs of the planning of sizes.
 pub trait Demand: Copy {
     /// Calls `with` once per counted number, with its name in statuses, this number and that of `other`. The
@@ -311,5 +320,13 @@ mod tests {
         assert_eq!([1, 64, TRACE_WORK_BUDGET].map(usual_rounds), [16; 3]);
         assert_eq!(usual_rounds(HARDWARE_WORK_BUDGET), 2);
         assert_eq!(usual_rounds(u32::MAX), 2);
+    }
+
+    #[test]
+    fn searches_are_nested_unless_the_driver_jumps_over_branches() {
+        assert!(nests_searches("llvmpipe Mesa 22.3.6 (LLVM 15.0.6)"));
+        assert!(!nests_searches("llvmpipe Mesa 25.0.7-2~bpo12+1 (LLVM 15.0.6)"));
+        assert!(nests_searches("NVIDIA 570.0"));
+        assert!(nests_searches("radv Mesa 25.0.7"));
     }
 }

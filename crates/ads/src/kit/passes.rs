@@ -7,8 +7,8 @@ use rasray_gpu::{
 };
 use rasray_shaders_glsl::records::BuildConstants;
 
-use crate::addressing::halves;
-use crate::groups::folded;
+use crate::kit::addressing::halves;
+use crate::kit::groups::folded;
 use crate::kit::{Modules, PoolName, Pools};
 use crate::{AdsError, Geometry, SceneBinding};
 

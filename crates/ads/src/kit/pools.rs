@@ -9,7 +9,7 @@ use rasray_gpu::{
     SetLayout,
 };
 
-use crate::addressing::halves;
+use crate::kit::addressing::halves;
 use crate::kit::{HEADER_POOL, Lookup, PoolName, TraceKernels};
 use crate::slots::Slots;
 use crate::{

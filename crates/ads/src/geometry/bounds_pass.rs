@@ -9,7 +9,7 @@ use rasray_shaders_glsl::{
 };
 
 use crate::geometry::BINDINGS;
-use crate::geometry_gather::{GATHER_BINDINGS, pipeline};
+use crate::geometry::gather::{GATHER_BINDINGS, pipeline};
 use crate::{AdsError, Geometry, GeometryHeader, GeometryParts};
 
 /// Bytes of the integer keys of one corner of the bounds.
