@@ -8,6 +8,11 @@
 // Constant ids 0 to 9 belong to the contract.
 layout(constant_id = 0) const uint COUNTERS = COUNTERS_OFF;
 
+// True if a search of a list is to find the next entry that may be hit in a loop of its own, so that rays that
+// run together test theirs together; false if it is to test within the loop over all entries. The host chooses
+// by the driver; hits, counters and steps are equal. Searches that gain by one form on every driver ignore it.
+layout(constant_id = 1) const bool NESTED_SEARCH = true;
+
 // Units of work after which a ray pauses. A variable, not a constant: one kernel serves every budget.
 uint work_budget = TRACE_WORK_BUDGET;
 

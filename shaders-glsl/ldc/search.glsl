@@ -44,7 +44,6 @@ bool ldc_search_conservative(LdcRef s, Ray ray, inout LdcSearch search, inout Tr
     vec2 depths = ldc_depths_between(search.z_origin, search.z_direction, search.t_low, search.t_high);
     float margin = search.sizes.margin;
     while (true) {
-        // The next triangle is found in a loop of its own: rays that run together test theirs together.
         bool found = false;
         ConservativeNode node;
         while (!found && search.place != 0u && work < work_budget) {
@@ -59,12 +58,17 @@ bool ldc_search_conservative(LdcRef s, Ray ray, inout LdcSearch search, inout Tr
             if (exists && !found) {
                 trace_log(STEP_SKIP, SKIP_OUTSIDE, 0u, 0u, node.depths.x, node.depths.y);
             }
+            if (!NESTED_SEARCH) {
+                break;
+            }
         }
-        if (!found) {
+        if (!found && (NESTED_SEARCH || search.place == 0u || work >= work_budget)) {
             return search.place != 0u;
         }
-        state.tests++;
-        test_with_planes(ray, conservative_primitive(s, node), search.t_low, search.t_high, state.best);
+        if (NESTED_SEARCH || found) {
+            state.tests++;
+            test_with_planes(ray, conservative_primitive(s, node), search.t_low, search.t_high, state.best);
+        }
     }
 }
 
@@ -94,7 +98,6 @@ bool ldc_search(LdcRef s, Ray ray, bool ordered, inout LdcSearch search, inout T
         }
         bool ended = search.place >= list.y;
         while (!ended) {
-            // The next fragment is found in a loop of its own: rays that run together test theirs together.
             bool found = false;
             uint place = 0u;
             float z = 0.0;
@@ -109,12 +112,18 @@ bool ldc_search(LdcRef s, Ray ray, bool ordered, inout LdcSearch search, inout T
                     trace_log(STEP_SKIP, SKIP_OUTSIDE, 0u, 0u, wanted.x, wanted.y);
                     ended = ended || (LDC_SKIP != 0u && ordered && z > wanted.y);
                 }
+                if (!NESTED_SEARCH) {
+                    break;
+                }
             }
-            if (!found) {
+            if (!found && (NESTED_SEARCH || ended || work >= work_budget)) {
                 if (!ended) {
                     return true;
                 }
                 break;
+            }
+            if (!NESTED_SEARCH && !found) {
+                continue;
             }
             if (LDC_ACCEPT == LDC_ACCEPT_TRIANGLE) {
                 test_anywhere(ray, ldc_primitive(s, place), state);
