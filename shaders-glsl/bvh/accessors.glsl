@@ -219,16 +219,22 @@ void bvh_set_scratch(BvhRef s, uint word, uint value) {
     }
 }
 
+// True if three consecutive words from this one on are within the pool.
+bool bvh_scratch_has_point(BvhRef s, uint word) {
+    uint capacity = BVH_HEADER(s).scratch_capacity;
+    return capacity >= 3u && word <= capacity - 3u;
+}
+
 // Reads three consecutive words as a point.
 vec3 bvh_scratch_point(BvhRef s, uint word) {
-    if (word + 3u > BVH_HEADER(s).scratch_capacity) {
+    if (!bvh_scratch_has_point(s, word)) {
         return vec3(0.0);
     }
     return uintBitsToFloat(uvec3(BVH_POOL(s, scratch)[word], BVH_POOL(s, scratch)[word + 1u], BVH_POOL(s, scratch)[word + 2u]));
 }
 
 void bvh_set_scratch_point(BvhRef s, uint word, vec3 point) {
-    if (word + 3u <= BVH_HEADER(s).scratch_capacity) {
+    if (bvh_scratch_has_point(s, word)) {
         BVH_POOL(s, scratch)[word] = floatBitsToUint(point.x);
         BVH_POOL(s, scratch)[word + 1u] = floatBitsToUint(point.y);
         BVH_POOL(s, scratch)[word + 2u] = floatBitsToUint(point.z);

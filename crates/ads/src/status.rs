@@ -94,8 +94,14 @@ impl BuildStatus {
         if self.was_complete {
             return Ok(Check::Complete);
         }
-        // Sizes without headroom are better than none.
-        plan(Growth { percent: headroom }).or_else(|_| plan(Growth { percent: 0 })).map(Check::Grow)
+        // Less headroom, or none, is better than no sizes.
+        let mut percent = headroom;
+        loop {
+            match plan(Growth { percent }) {
+                Err(_) if percent > 0 => percent /= 2,
+                planned => return planned.map(Check::Grow),
+            }
+        }
     }
 }
 
@@ -117,7 +123,28 @@ impl Growth {
 
 #[cfg(test)]
 mod tests {
+    use std::cell::RefCell;
+
     use super::*;
+
+    #[test]
+    fn headroom_is_halved_until_sizes_can_be_planned() {
+        let with_room_for = |most: u32| {
+            let tried = RefCell::new(Vec::new());
+            let plan = |growth: Growth| {
+                tried.borrow_mut().push(growth.percent);
+                let limit = most.into();
+                let too_large =
+                    AdsError::PoolTooLarge { structure: "s", pool: "p", elements: limit + 1, limit };
+                if growth.percent > most { Err(too_large) } else { Ok(Sizes::default()) }
+            };
+            let checked = BuildStatus::default().check(50, plan);
+            (checked.is_ok(), tried.take())
+        };
+        assert_eq!(with_room_for(50), (true, vec![50]));
+        assert_eq!(with_room_for(20), (true, vec![50, 25, 12]));
+        assert_eq!(with_room_for(0), (true, vec![50, 25, 12, 6, 3, 1, 0]));
+    }
 
     #[test]
     fn the_pool_that_lacks_most_is_found_in_all_parts() {

@@ -4,11 +4,10 @@ use rasray_ads::AdsError;
 use rasray_ads::kit::{BuildPipelines, BuildTarget, Scan};
 use rasray_gpu::{Access, ComputePipeline, Recorder, Stage};
 use rasray_shaders_glsl::constants::bvh::{
-    BVH_CLUSTERS, BVH_DIGIT_VALUES, BVH_DIGITS, BVH_GROUP_SIZE, BVH_SORT_CHUNK, BVH_TREELET,
-    BVH_TREELET_CLASSES, BVH_TREELET_ROUNDS,
+    BVH_CLUSTERS, BVH_DIGITS, BVH_GROUP_SIZE, BVH_TREELET_CLASSES, BVH_TREELET_ROUNDS,
 };
 
-use crate::layout::{cluster_levels, most_nodes, union_levels};
+use crate::layout::{cluster_levels, digit_counts, most_nodes, sort_chunks, treelet_classes, union_levels};
 use crate::{Builder, Children, Chunks, Config, Pool};
 
 /// Pipelines of the build.
@@ -139,9 +138,8 @@ impl DevicePipelines {
     /// Records the passes that find Morton codes and sort the triangles by them.
     fn record_order(&self, recorder: &mut Recorder<'_>, target: BuildTarget<'_>) {
         let triangles = target.geometry.triangle_count();
-        let chunks = triangles.div_ceil(BVH_SORT_CHUNK);
-        let counts = u64::from(chunks) * u64::from(BVH_DIGIT_VALUES);
-        let groups = self.chunks.groups(chunks);
+        let counts = digit_counts(triangles.into());
+        let groups = self.chunks.groups(sort_chunks(triangles.into()));
         let chunk_pass = |recorder: &mut Recorder<'_>, label, pipeline, digit| {
             target.compute_pass(recorder, label, pipeline, groups, digit, Access::COMPUTE);
         };
@@ -196,7 +194,7 @@ impl TreePipelines {
             }
             Self::OfClusters { clusters, chunks } => {
                 for (level, count) in (0..).zip(cluster_levels(triangles.into())) {
-                    let groups = chunks.groups(count.div_ceil(BVH_CLUSTERS.into()) as u32);
+                    let groups = chunks.groups(count.div_ceil(BVH_CLUSTERS.into()));
                     target.compute_pass(
                         recorder,
                         "bvh/build_8_topology",
@@ -243,14 +241,11 @@ impl TreeletPipelines {
         step: impl Fn(u32) -> u32,
     ) {
         let triangles = target.geometry.triangle_count();
-        // A class has at most half as many chains as the one before.
-        let chains = |class: u32| (triangles / BVH_TREELET).checked_shr(class).unwrap_or(0);
-        if chains(first) == 0 {
-            return;
-        }
-        pass(recorder, target, "bvh/build_11_chains", &self.chains, first, triangles);
-        for class in (first..BVH_TREELET_CLASSES).take_while(|class| chains(*class) > 0) {
-            pass(recorder, target, label, of_chain, step(class), chains(class));
+        for (class, chains) in treelet_classes(triangles, first) {
+            if class == first {
+                pass(recorder, target, "bvh/build_11_chains", &self.chains, first, triangles);
+            }
+            pass(recorder, target, label, of_chain, step(class), chains);
         }
     }
 }
@@ -296,10 +291,10 @@ impl FourPipelines {
 
 impl Chunks {
     /// Returns the number of workgroups for this many chunks.
-    fn groups(self, chunks: u32) -> u64 {
+    fn groups(self, chunks: u64) -> u64 {
         match self {
-            Self::Serial => groups(chunks),
-            Self::Shared => chunks.into(),
+            Self::Serial => chunks.div_ceil(BVH_GROUP_SIZE.into()),
+            Self::Shared => chunks,
         }
     }
 }

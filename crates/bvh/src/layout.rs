@@ -1,4 +1,4 @@
-//! Sizes of the pools, by plain arithmetic without a device.
+//! Sizes of the pools, and the items that passes of a build work on, by plain arithmetic without a device.
 
 use rasray_ads::kit::Scan;
 use rasray_ads::{AdsError, Sizes};
@@ -29,8 +29,7 @@ fn scratch_words(builder: Builder, triangles: u64) -> u64 {
     match builder {
         Builder::Sah => (BOX_WORDS + 1) * triangles,
         Builder::Lbvh | Builder::Ploc | Builder::Trbvh | Builder::Refit => {
-            let chunks = triangles.div_ceil(BVH_SORT_CHUNK.into());
-            let counts = u64::from(BVH_DIGIT_VALUES) * chunks;
+            let counts = digit_counts(triangles);
             let boxes = match builder {
                 Builder::Ploc => u64::from(BVH_CLUSTER_WORDS) * triangles,
                 _ => 6 * unions(triangles),
@@ -38,6 +37,24 @@ fn scratch_words(builder: Builder, triangles: u64) -> u64 {
             4 * triangles + counts + Scan::sums(counts) + boxes
         }
     }
+}
+
+/// Returns the number of chunks in which the device sorts keys.
+pub(crate) fn sort_chunks(triangles: u64) -> u64 {
+    triangles.div_ceil(BVH_SORT_CHUNK.into())
+}
+
+/// Returns how many keys of each chunk have each value of a digit: the number of these counts.
+pub(crate) fn digit_counts(triangles: u64) -> u64 {
+    u64::from(BVH_DIGIT_VALUES) * sort_chunks(triangles)
+}
+
+/// Returns the classes of subtrees from `first` on that a tree may have, each with its greatest number of
+/// chains: at most half as many as the class before.
+pub(crate) fn treelet_classes(triangles: u32, first: u32) -> impl Iterator<Item = (u32, u32)> {
+    (first..BVH_TREELET_CLASSES)
+        .map(move |class| (class, (triangles / BVH_TREELET).checked_shr(class).unwrap_or(0)))
+        .take_while(|(_, chains)| *chains > 0)
 }
 
 /// Returns the number of boxes in each level of unions above the triangles, up to the level with a single
@@ -177,6 +194,26 @@ mod tests {
                 assert_ne!(sizes.bytes(), formula_bytes(&config, nodes + 1, triangles).total());
             }
         }
+    }
+
+    /// Subtrees of a class have at least twice as many records as those of the class before, and chains are
+    /// disjoint.
+    #[test]
+    fn classes_of_treelets_have_half_as_many_chains_each() {
+        let chains = |triangles, first| treelet_classes(triangles, first).collect::<Vec<_>>();
+        assert_eq!(chains(BVH_TREELET - 1, 0), []);
+        assert_eq!(chains(BVH_TREELET, 0), [(0, 1)]);
+        assert_eq!(chains(BVH_TREELET, 1), []);
+        assert_eq!(chains(5 * BVH_TREELET, 0), [(0, 5), (1, 2), (2, 1)]);
+        assert_eq!(chains(5 * BVH_TREELET, 1), [(1, 2), (2, 1)]);
+        assert!(treelet_classes(u32::MAX, 0).all(|(class, _)| class < BVH_TREELET_CLASSES));
+    }
+
+    #[test]
+    fn every_chunk_counts_every_value_of_a_digit() {
+        let chunk = u64::from(BVH_SORT_CHUNK);
+        assert_eq!([0, 1, chunk, chunk + 1].map(sort_chunks), [0, 1, 1, 2]);
+        assert_eq!(digit_counts(chunk + 1), 2 * u64::from(BVH_DIGIT_VALUES));
     }
 
     #[test]

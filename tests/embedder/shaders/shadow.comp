@@ -13,6 +13,9 @@ layout(local_size_x = 64) in;
 layout(set = 1, binding = 0, scalar) readonly buffer PointBuffer { vec3 points[]; };
 layout(set = 1, binding = 1, scalar) buffer VisibleBuffer { uint visible[]; };
 
+// Largest number of times that a paused ray goes on.
+#define TURNS 64u
+
 layout(push_constant, scalar) uniform Constants {
     vec3 light;
     uint count;
@@ -27,8 +30,9 @@ void main() {
     Ray ray = Ray(point, 1.0e-3, light - point, 1.0, PRIMITIVE_NONE, 0u, 0.0, 0.0);
     TraceState state = trace_state_begin(ray);
     uint result = TRACE_PAUSED;
-    while (result == TRACE_PAUSED) {
+    for (uint turn = 0u; turn < TURNS && result == TRACE_PAUSED; turn++) {
         result = bricks_trace_occluded(BricksRef(uvec2(0u)), ray, state);
     }
-    visible[index] = result == TRACE_MISS ? 1u : 0u;
+    // A ray that is still paused is neither visible nor hidden.
+    visible[index] = result == TRACE_PAUSED ? 2u : result == TRACE_MISS ? 1u : 0u;
 }
