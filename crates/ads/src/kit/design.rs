@@ -23,10 +23,10 @@ pub fn default_work_budget(device: &Device) -> u32 {
     if device.is_software() { TRACE_WORK_BUDGET } else { HARDWARE_WORK_BUDGET }
 }
 
-/// Returns true if a search of a list should find the next entry in a loop of its own on a driver, which does
-/// not change any hit. Invocations that run together then test together, which a driver needs that runs both
-/// sides of every branch. Mesa's software driver does so in version 22; in version 25 it jumps over sides that
-/// no invocation takes.
+/// Returns true if a search of a list should find the next entry in a loop of its own on a driver, which
+/// changes no hit. Invocations that run together then test together, as a driver needs that runs both sides
+/// of every branch. Mesa's software driver does so in version 22; in version 25 it jumps over sides that no
+/// invocation takes.
 pub(crate) fn nests_searches(driver: &str) -> bool {
     let mesa = driver.strip_prefix("llvmpipe Mesa ").and_then(|version| version.split('.').next());
     mesa.and_then(|major| major.parse().ok()).is_none_or(|major: u32| major < 25)
