@@ -80,9 +80,6 @@
 // gaps between triangles smaller than a cell, a smaller one keeps planes seen edge-on out of the way.
 #define ABUFFER_PLANE_REACH 2.0
 
-// Threads in a workgroup of the build's compute passes.
-#define ABUFFER_GROUP_SIZE 64u
-
 // Half side of the near region over the number of cells along a side times the distance of the geometry:
 // closer to the eye, the cell of a point is lost in rounding. If no triangle may be lost, NEAR_REGION is
 // used.

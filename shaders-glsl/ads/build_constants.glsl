@@ -4,6 +4,8 @@
 #ifndef ADS_BUILD_CONSTANTS_GLSL
 #define ADS_BUILD_CONSTANTS_GLSL
 
+#include "ads/constants.glsl"
+
 // The structure that a build pass works on, and the step of the pass. 12 bytes.
 layout(push_constant, scalar) uniform BuildConstants {
     StructureRef structure;   // the device address of the header, low word first; zero with descriptors

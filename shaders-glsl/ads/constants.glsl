@@ -35,6 +35,9 @@
 #define SCAN_THREADS 256u
 #define SCAN_ROW 16u
 
+// Threads in a workgroup of the passes of a structure's own build.
+#define BUILD_GROUP_SIZE 64u
+
 // Threads in a workgroup of the passes that sort lists.
 #define SORT_GROUP_SIZE 64u
 

@@ -5,6 +5,7 @@
 #define BRICKS_ACCESSORS_GLSL
 
 #include "contract/bits.glsl"
+#include "ads/constants.glsl"
 #include "ads/views.glsl"
 #include "bricks/header.glsl"
 #include "ads/box_cells.glsl"
@@ -168,8 +169,8 @@ void bricks_store_record(BricksRef s, uint level, BricksRecord record) {
         BRICKS_POOL(s, records)[BRICKS_RECORD_WORDS * place + 3u] = record.cells.y;
         bricks_mark(s, record.brick, record.cells);
         uint of_level = place - BRICKS_HEADER(s).record_first[level];
-        if (of_level % BRICKS_GROUP_SIZE == 0u) {
-            atomicMax(BRICKS_HEADER(s).record_groups[3u * level], min(of_level / BRICKS_GROUP_SIZE + 1u, BRICKS_GROUPS_MOST));
+        if (of_level % BUILD_GROUP_SIZE == 0u) {
+            atomicMax(BRICKS_HEADER(s).record_groups[3u * level], min(of_level / BUILD_GROUP_SIZE + 1u, BRICKS_GROUPS_MOST));
         }
     }
 }

@@ -8,11 +8,12 @@
 #include "bricks/distance.glsl"
 #include "bricks/names.glsl"
 #include "ads/build_constants.glsl"
+#include "ads/build_invocation.glsl"
 
-layout(local_size_x = BRICKS_GROUP_SIZE) in;
+layout(local_size_x = BUILD_GROUP_SIZE) in;
 
 void main() {
-    uint line = gl_GlobalInvocationID.y * gl_NumWorkGroups.x * BRICKS_GROUP_SIZE + gl_GlobalInvocationID.x;
+    uint line = build_invocation();
     uvec3 bricks = bricks_cells(build.structure) >> 2;
     uint deep = bricks.z;
     if (line >= bricks_view_count() * bricks.y * deep) {

@@ -7,8 +7,9 @@
 #include "bricks/distance.glsl"
 #include "bricks/names.glsl"
 #include "ads/build_constants.glsl"
+#include "ads/build_invocation.glsl"
 
-layout(local_size_x = BRICKS_GROUP_SIZE) in;
+layout(local_size_x = BUILD_GROUP_SIZE) in;
 
 // Lengthens the runs of four octants by the reaches of a brick towards them.
 void lengthen(inout uint runs[4], uint reaches) {
@@ -22,7 +23,7 @@ uint reaches_of(uint runs[4]) {
 }
 
 void main() {
-    uint line = gl_GlobalInvocationID.y * gl_NumWorkGroups.x * BRICKS_GROUP_SIZE + gl_GlobalInvocationID.x;
+    uint line = build_invocation();
     uvec3 bricks = bricks_cells(build.structure) >> 2;
     uint stride = bricks.x * bricks.z;
     if (line >= bricks_view_count() * stride) {

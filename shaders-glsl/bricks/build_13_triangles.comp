@@ -6,11 +6,12 @@
 #include "ads/geometry.glsl"
 #include "bricks/names.glsl"
 #include "ads/build_constants.glsl"
+#include "ads/build_invocation.glsl"
 
-layout(local_size_x = BRICKS_GROUP_SIZE) in;
+layout(local_size_x = BUILD_GROUP_SIZE) in;
 
 void main() {
-    uint primitive = gl_GlobalInvocationID.y * gl_NumWorkGroups.x * BRICKS_GROUP_SIZE + gl_GlobalInvocationID.x;
+    uint primitive = build_invocation();
     if (primitive >= min(geometry_triangle_count(), BRICKS_HEADER(build.structure).triangle_capacity)) {
         return;
     }

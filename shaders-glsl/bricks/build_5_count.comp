@@ -6,7 +6,7 @@
 #include "contract/extensions.glsl"
 #include "bricks/level.glsl"
 
-layout(local_size_x = BRICKS_GROUP_SIZE) in;
+layout(local_size_x = BUILD_GROUP_SIZE) in;
 
 void main() {
     uint lists = BRICKS_HEADER(build.structure).cell_capacity;

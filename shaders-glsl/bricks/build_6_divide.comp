@@ -6,7 +6,7 @@
 #include "contract/extensions.glsl"
 #include "bricks/level.glsl"
 
-layout(local_size_x = BRICKS_GROUP_SIZE) in;
+layout(local_size_x = BUILD_GROUP_SIZE) in;
 
 // Returns the crowded cells of a brick as a mask.
 uvec2 crowded_cells(uvec2 mask, uint first) {
@@ -56,7 +56,7 @@ void main() {
         }
         BRICKS_POOL(build.structure, bricks)[bricks_child_at(brick)] = child;
         uint of_level = child + count - BRICKS_HEADER(build.structure).brick_first[build.step + 1u];
-        uint groups = (of_level + BRICKS_GROUP_SIZE - 1u) / BRICKS_GROUP_SIZE;
+        uint groups = (of_level + BUILD_GROUP_SIZE - 1u) / BUILD_GROUP_SIZE;
         atomicMax(BRICKS_HEADER(build.structure).brick_groups[3u * (build.step + 1u)], min(groups, BRICKS_GROUPS_MOST));
     }
 }

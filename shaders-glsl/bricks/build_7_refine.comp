@@ -8,7 +8,7 @@
 #include "bricks/level.glsl"
 #include "bricks/refine.glsl"
 
-layout(local_size_x = BRICKS_GROUP_SIZE) in;
+layout(local_size_x = BUILD_GROUP_SIZE) in;
 
 void main() {
     uint next = build.step + 1u;

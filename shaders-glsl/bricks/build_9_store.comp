@@ -6,11 +6,12 @@
 #include "bricks/accessors.glsl"
 #include "bricks/names.glsl"
 #include "ads/build_constants.glsl"
+#include "ads/build_invocation.glsl"
 
-layout(local_size_x = BRICKS_GROUP_SIZE) in;
+layout(local_size_x = BUILD_GROUP_SIZE) in;
 
 void main() {
-    uint place = gl_GlobalInvocationID.y * gl_NumWorkGroups.x * BRICKS_GROUP_SIZE + gl_GlobalInvocationID.x;
+    uint place = build_invocation();
     if (place >= bricks_stored_records(build.structure)) {
         return;
     }

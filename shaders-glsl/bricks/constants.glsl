@@ -39,7 +39,4 @@
 // Number of words per triangle of the large-triangle queue: one per view.
 #define BRICKS_LARGE_LIMIT 6u
 
-// Threads in a workgroup of the build's compute passes.
-#define BRICKS_GROUP_SIZE 64u
-
 #endif

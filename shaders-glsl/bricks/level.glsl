@@ -8,7 +8,7 @@
 #include "bricks/names.glsl"
 #include "ads/build_constants.glsl"
 
-#define BRICKS_LEVEL_STRIDE (gl_NumWorkGroups.x * BRICKS_GROUP_SIZE)
+#define BRICKS_LEVEL_STRIDE (gl_NumWorkGroups.x * BUILD_GROUP_SIZE)
 
 // Returns the first brick or record of the level for this invocation, and the end of the level.
 uvec2 bricks_level_bricks() {

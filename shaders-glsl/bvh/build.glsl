@@ -9,11 +9,7 @@
 #include "bvh/scratch.glsl"
 #include "bvh/names.glsl"
 #include "ads/build_constants.glsl"
-
-// Returns the index of this invocation in groups of BVH_GROUP_SIZE, which fill two dimensions.
-uint bvh_invocation() {
-    return gl_GlobalInvocationID.y * gl_NumWorkGroups.x * BVH_GROUP_SIZE + gl_GlobalInvocationID.x;
-}
+#include "ads/build_invocation.glsl"
 
 void bvh_triangle_box(uint primitive, out vec3 lower, out vec3 upper) {
     vec3 a;

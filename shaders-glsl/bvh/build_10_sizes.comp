@@ -4,10 +4,10 @@
 #include "contract/extensions.glsl"
 #include "bvh/treelets.glsl"
 
-layout(local_size_x = BVH_GROUP_SIZE) in;
+layout(local_size_x = BUILD_GROUP_SIZE) in;
 
 void main() {
-    uint node = bvh_invocation();
+    uint node = build_invocation();
     if (node < BVH_TREELET_ROUNDS * BVH_TREELET_CLASSES) {
         bvh_set_scratch(build.structure, chain_count_word(node), 0u);
     }

@@ -5,10 +5,10 @@
 #include "contract/extensions.glsl"
 #include "bvh/restructure.glsl"
 
-layout(local_size_x = BVH_GROUP_SIZE) in;
+layout(local_size_x = BUILD_GROUP_SIZE) in;
 
 void main() {
-    uint place = bvh_invocation();
+    uint place = build_invocation();
     if (place >= bvh_scratch(build.structure, chain_count_word(build.step))) {
         return;
     }

@@ -7,7 +7,7 @@
 #include "bvh/area.glsl"
 #include "bvh/fours.glsl"
 
-layout(local_size_x = BVH_GROUP_SIZE) in;
+layout(local_size_x = BUILD_GROUP_SIZE) in;
 
 // Takes a node in place of the choice so far (0: nothing) if its box is larger. One node is always chosen, so
 // that only a node over leaves has fewer children than four, even if areas are not numbers.
@@ -19,7 +19,7 @@ void choose(uint reference, float of_box, uint bit, inout uint chosen, inout flo
 }
 
 void main() {
-    uint node = bvh_invocation();
+    uint node = build_invocation();
     if (node + 1u >= BVH_HEADER(build.structure).triangle_count) {
         return;
     }

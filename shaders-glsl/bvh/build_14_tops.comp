@@ -6,10 +6,10 @@
 #include "contract/extensions.glsl"
 #include "bvh/fours.glsl"
 
-layout(local_size_x = BVH_GROUP_SIZE) in;
+layout(local_size_x = BUILD_GROUP_SIZE) in;
 
 void main() {
-    uint node = bvh_invocation();
+    uint node = build_invocation();
     if (node + 1u >= BVH_HEADER(build.structure).triangle_count) {
         return;
     }

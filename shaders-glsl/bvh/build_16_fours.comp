@@ -5,10 +5,10 @@
 #include "contract/extensions.glsl"
 #include "bvh/four_children.glsl"
 
-layout(local_size_x = BVH_GROUP_SIZE) in;
+layout(local_size_x = BUILD_GROUP_SIZE) in;
 
 void main() {
-    four_number = bvh_invocation();
+    four_number = build_invocation();
     uint triangles = BVH_HEADER(build.structure).triangle_count;
     uint nodes = bvh_scratch(build.structure, number_word(triangles - 1u));
     if (four_number == 0u) {

@@ -4,10 +4,10 @@
 #include "contract/extensions.glsl"
 #include "bvh/build.glsl"
 
-layout(local_size_x = BVH_GROUP_SIZE) in;
+layout(local_size_x = BUILD_GROUP_SIZE) in;
 
 void main() {
-    uint primitive = bvh_invocation();
+    uint primitive = build_invocation();
     if (primitive >= geometry_triangle_count()) {
         return;
     }

@@ -7,7 +7,7 @@
 #include "ads/placement.glsl"
 #include "bvh/build.glsl"
 
-layout(local_size_x = BVH_GROUP_SIZE) in;
+layout(local_size_x = BUILD_GROUP_SIZE) in;
 
 // Returns the number of cells of the grid per metre, equal along all axes, so that cells are cubes. It is
 // kept a normal number: points outside the grid are clamped to it, which costs quality but no hit.
@@ -25,7 +25,7 @@ uint spread(uint bits) {
 }
 
 void main() {
-    uint primitive = bvh_invocation();
+    uint primitive = build_invocation();
     uint triangles = geometry_triangle_count();
     if (primitive == 0u) {
         BVH_HEADER(build.structure).triangle_count = triangles;

@@ -5,10 +5,10 @@
 #include "contract/extensions.glsl"
 #include "bvh/sort.glsl"
 
-layout(local_size_x = BVH_GROUP_SIZE) in;
+layout(local_size_x = BUILD_GROUP_SIZE) in;
 
 void main() {
-    uint chunk = bvh_invocation();
+    uint chunk = build_invocation();
     if (chunk >= bvh_chunks(build.structure)) {
         return;
     }

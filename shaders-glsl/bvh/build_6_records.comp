@@ -4,10 +4,10 @@
 #include "contract/extensions.glsl"
 #include "bvh/build.glsl"
 
-layout(local_size_x = BVH_GROUP_SIZE) in;
+layout(local_size_x = BUILD_GROUP_SIZE) in;
 
 void main() {
-    uint place = bvh_invocation();
+    uint place = build_invocation();
     if (place >= BVH_HEADER(build.structure).triangle_count) {
         return;
     }

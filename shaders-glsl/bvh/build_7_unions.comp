@@ -4,10 +4,10 @@
 #include "contract/extensions.glsl"
 #include "bvh/unions.glsl"
 
-layout(local_size_x = BVH_GROUP_SIZE) in;
+layout(local_size_x = BUILD_GROUP_SIZE) in;
 
 void main() {
-    uint place = bvh_invocation();
+    uint place = build_invocation();
     uint below_offset = 0u;
     uint below_count = BVH_HEADER(build.structure).triangle_count;
     for (uint level = 0u; level < build.step; level++) {

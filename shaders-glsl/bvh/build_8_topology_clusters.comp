@@ -5,10 +5,10 @@
 #include "contract/extensions.glsl"
 #include "bvh/cluster_pairs.glsl"
 
-layout(local_size_x = BVH_GROUP_SIZE) in;
+layout(local_size_x = BUILD_GROUP_SIZE) in;
 
 void main() {
-    Part part = part_of(bvh_invocation());
+    Part part = part_of(build_invocation());
     if (part.count == 0u) {
         return;
     }

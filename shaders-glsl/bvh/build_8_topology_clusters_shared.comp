@@ -5,14 +5,14 @@
 #include "contract/extensions.glsl"
 #include "bvh/clusters_shared.glsl"
 
-layout(local_size_x = BVH_GROUP_SIZE) in;
+layout(local_size_x = BUILD_GROUP_SIZE) in;
 
 void main() {
     Part part = part_of(gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x);
     if (part.count == 0u) {
         return;
     }
-    for (uint place = gl_LocalInvocationID.x; place < part.count; place += BVH_GROUP_SIZE) {
+    for (uint place = gl_LocalInvocationID.x; place < part.count; place += BUILD_GROUP_SIZE) {
         uint record = part.first + place;
         if (build.step != 0u) {
             record = bvh_scratch(build.structure, list_word(build.step, record));
@@ -29,11 +29,11 @@ void main() {
     bool every_two = false;
     // Every invocation knows the number of clusters, so all make as many turns.
     while (part.count > part.kept) {
-        for (uint place = gl_LocalInvocationID.x; place < part.count; place += BVH_GROUP_SIZE) {
+        for (uint place = gl_LocalInvocationID.x; place < part.count; place += BUILD_GROUP_SIZE) {
             nearest[place] = every_two ? min(place ^ 1u, part.count - 1u) : nearest_of(place, part.count, per_metre);
         }
         barrier();
-        for (uint place = gl_LocalInvocationID.x; place < part.count; place += BVH_GROUP_SIZE) {
+        for (uint place = gl_LocalInvocationID.x; place < part.count; place += BUILD_GROUP_SIZE) {
             if (partner_of(place) < place) {
                 atomicOr(seconds[turn][place / 32u], 1u << (place % 32u));
             }
@@ -44,7 +44,7 @@ void main() {
         uint next_records[SHARE];
         Cluster next[SHARE];
         [[unroll]] for (uint i = 0u; i < SHARE; i++) {
-            uint place = gl_LocalInvocationID.x + i * BVH_GROUP_SIZE;
+            uint place = gl_LocalInvocationID.x + i * BUILD_GROUP_SIZE;
             next_places[i] = BVH_CLUSTERS;
             if (place < part.count) {
                 uint before = seconds_before(turn, place);
@@ -78,7 +78,7 @@ void main() {
         }
         return;
     }
-    for (uint i = gl_LocalInvocationID.x; i < part.count; i += BVH_GROUP_SIZE) {
+    for (uint i = gl_LocalInvocationID.x; i < part.count; i += BUILD_GROUP_SIZE) {
         set_cluster(records[i], cluster_at(i));
         bvh_set_scratch(build.structure, list_word(build.step + 1u, BVH_CLUSTERS_KEPT * part.number + i), records[i]);
     }

@@ -6,7 +6,7 @@
 #include "contract/extensions.glsl"
 #include "bvh/treelets.glsl"
 
-layout(local_size_x = BVH_GROUP_SIZE) in;
+layout(local_size_x = BUILD_GROUP_SIZE) in;
 
 // Sets the box of a child of a node to that of all records below it.
 void set_box_of(uint link, uint reference) {
@@ -29,7 +29,7 @@ void set_box_of(uint link, uint reference) {
 }
 
 void main() {
-    uint node = bvh_invocation();
+    uint node = build_invocation();
     if (node < BVH_TREELET_CLASSES) {
         bvh_set_scratch(build.structure, chain_count_word(node), 0u);
     }

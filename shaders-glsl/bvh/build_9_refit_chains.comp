@@ -6,7 +6,7 @@
 #include "contract/extensions.glsl"
 #include "bvh/treelets.glsl"
 
-layout(local_size_x = BVH_GROUP_SIZE) in;
+layout(local_size_x = BUILD_GROUP_SIZE) in;
 
 // Sets the box of a child of a node to what is below it.
 void refit(uint link, uint child) {
@@ -23,7 +23,7 @@ void refit(uint link, uint child) {
 }
 
 void main() {
-    uint place = bvh_invocation();
+    uint place = build_invocation();
     uint size_class = build.step;
     if (place >= bvh_scratch(build.structure, chain_count_word(size_class))) {
         return;

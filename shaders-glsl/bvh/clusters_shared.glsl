@@ -7,7 +7,7 @@
 #include "bvh/clusters.glsl"
 
 // Number of clusters of an invocation.
-const uint SHARE = BVH_CLUSTERS / BVH_GROUP_SIZE;
+const uint SHARE = BVH_CLUSTERS / BUILD_GROUP_SIZE;
 const uint MASKS = BVH_CLUSTERS / 32u;
 
 // Clusters that are left: their boxes, the first record of each, and the place of the nearest of each.

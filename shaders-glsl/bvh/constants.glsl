@@ -58,7 +58,4 @@
 #define BVH_CLUSTER_WORDS 7u
 #define BVH_CLUSTER_REACH 6u
 
-// Threads in a workgroup of the build's passes.
-#define BVH_GROUP_SIZE 64u
-
 #endif

@@ -7,8 +7,9 @@
 #include "driver/accessors.glsl"
 #include "driver/names.glsl"
 #include "ads/build_constants.glsl"
+#include "ads/build_invocation.glsl"
 
-layout(local_size_x = DRIVER_GROUP_SIZE) in;
+layout(local_size_x = BUILD_GROUP_SIZE) in;
 
 // Margin of a box, in multiples of the rounding.
 #define DRIVER_MARGINS 4.0
@@ -22,7 +23,7 @@ void store(uint box, vec3 lower, vec3 upper) {
 }
 
 void main() {
-    uint box = gl_GlobalInvocationID.y * gl_NumWorkGroups.x * DRIVER_GROUP_SIZE + gl_GlobalInvocationID.x;
+    uint box = build_invocation();
     if (box >= DRIVER_HEADER(build.structure).capacity) {
         return;
     }

@@ -2,9 +2,6 @@
 #ifndef DRIVER_CONSTANTS_GLSL
 #define DRIVER_CONSTANTS_GLSL
 
-// Invocations of a workgroup of the pass that makes boxes.
-#define DRIVER_GROUP_SIZE 64
-
 // Words of a box: two corners.
 #define DRIVER_BOX_WORDS 6u
 

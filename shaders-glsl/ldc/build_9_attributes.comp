@@ -11,13 +11,14 @@
 #include "ldc/accessors.glsl"
 #include "ldc/covered.glsl"
 
-layout(local_size_x = LDC_GROUP_SIZE) in;
+layout(local_size_x = BUILD_GROUP_SIZE) in;
 
 uint list_end(uint list) {
     return LDC_POOL(build.structure, lists)[list];
 }
 
 #include "ads/list_of_place.glsl"
+#include "ads/build_invocation.glsl"
 
 // Returns colour and normal of a triangle that was moved to a space of its own.
 uvec2 rigid_attributes(uint primitive, vec2 barycentrics) {
@@ -41,7 +42,7 @@ uvec2 rigid_attributes(uint primitive, vec2 barycentrics) {
 }
 
 void main() {
-    uint place = gl_GlobalInvocationID.y * gl_NumWorkGroups.x * LDC_GROUP_SIZE + gl_GlobalInvocationID.x;
+    uint place = build_invocation();
     uint places = ldc_places(build.structure);
     if (!ldc_fragments_fit(build.structure) || place >= places) {
         return;

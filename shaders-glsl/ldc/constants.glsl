@@ -55,7 +55,4 @@
 #define LDC_RIGID_REACH 0.001
 #define LDC_RIGID_REACH_FRAGMENTS 0.05
 
-// Threads in a workgroup of the build's compute passes.
-#define LDC_GROUP_SIZE 64u
-
 #endif

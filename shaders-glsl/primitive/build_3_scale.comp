@@ -6,11 +6,12 @@
 #include "primitive/accessors.glsl"
 #include "primitive/names.glsl"
 #include "ads/build_constants.glsl"
+#include "ads/build_invocation.glsl"
 
-layout(local_size_x = PRIMITIVE_GROUP_SIZE) in;
+layout(local_size_x = BUILD_GROUP_SIZE) in;
 
 void main() {
-    uint cell = gl_GlobalInvocationID.y * gl_NumWorkGroups.x * PRIMITIVE_GROUP_SIZE + gl_GlobalInvocationID.x;
+    uint cell = build_invocation();
     if (cell < primitive_cell_count(build.structure)) {
         primitive_store_scale(build.structure, cell);
     }

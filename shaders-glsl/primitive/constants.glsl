@@ -48,7 +48,4 @@
 // Rounding of points that are turned into the camera's view, over that of differences of positions.
 #define PRIMITIVE_CAMERA_ROUNDING 1.25
 
-// Threads in a workgroup of the build's compute passes.
-#define PRIMITIVE_GROUP_SIZE 64u
-
 #endif

@@ -7,12 +7,13 @@
 #include "voxel/octree.glsl"
 #include "voxel/names.glsl"
 #include "ads/build_constants.glsl"
+#include "ads/build_invocation.glsl"
 
-layout(local_size_x = VOXEL_GROUP_SIZE) in;
+layout(local_size_x = BUILD_GROUP_SIZE) in;
 
 void main() {
     uint level = build.step;
-    uint number = gl_GlobalInvocationID.y * gl_NumWorkGroups.x * VOXEL_GROUP_SIZE + gl_GlobalInvocationID.x;
+    uint number = build_invocation();
     if (number >= 1u << (3u * level)) {
         return;
     }

@@ -6,8 +6,9 @@
 #include "voxel/octree.glsl"
 #include "voxel/names.glsl"
 #include "ads/build_constants.glsl"
+#include "ads/build_invocation.glsl"
 
-layout(local_size_x = VOXEL_GROUP_SIZE) in;
+layout(local_size_x = BUILD_GROUP_SIZE) in;
 
 // Returns the number of octants that hold something in all nodes before one.
 uint before(uint node, uint count) {
@@ -15,7 +16,7 @@ uint before(uint node, uint count) {
 }
 
 void main() {
-    uint node = gl_GlobalInvocationID.y * gl_NumWorkGroups.x * VOXEL_GROUP_SIZE + gl_GlobalInvocationID.x;
+    uint node = build_invocation();
     uint count = octree_upper_count(build.structure);
     if (node >= count || VOXEL_HEADER(build.structure).node_demand > VOXEL_HEADER(build.structure).node_capacity) {
         return;

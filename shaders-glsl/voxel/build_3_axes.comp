@@ -6,12 +6,13 @@
 #include "voxel/accessors.glsl"
 #include "voxel/names.glsl"
 #include "ads/build_constants.glsl"
+#include "ads/build_invocation.glsl"
 
-layout(local_size_x = VOXEL_GROUP_SIZE) in;
+layout(local_size_x = BUILD_GROUP_SIZE) in;
 
 // One thread per word of eight voxels.
 void main() {
-    uint word = gl_GlobalInvocationID.y * gl_NumWorkGroups.x * VOXEL_GROUP_SIZE + gl_GlobalInvocationID.x;
+    uint word = build_invocation();
     uint count = voxel_count(build.structure);
     if (8u * word >= count) {
         return;

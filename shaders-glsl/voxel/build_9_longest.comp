@@ -7,11 +7,12 @@
 #include "voxel/lists.glsl"
 #include "voxel/names.glsl"
 #include "ads/build_constants.glsl"
+#include "ads/build_invocation.glsl"
 
-layout(local_size_x = VOXEL_GROUP_SIZE) in;
+layout(local_size_x = BUILD_GROUP_SIZE) in;
 
 void main() {
-    uint list = gl_GlobalInvocationID.y * gl_NumWorkGroups.x * VOXEL_GROUP_SIZE + gl_GlobalInvocationID.x;
+    uint list = build_invocation();
     if (list >= voxel_list_count(build.structure)
         || VOXEL_HEADER(build.structure).demand > VOXEL_HEADER(build.structure).capacity) {
         return;

@@ -94,7 +94,4 @@
 // iterations.
 #define VOXEL_LONGEST_LIMIT 60000u
 
-// Threads in a workgroup of the build's compute passes.
-#define VOXEL_GROUP_SIZE 64u
-
 #endif

@@ -3,11 +3,10 @@
 use std::mem::offset_of;
 
 use rasray_ads::kit::{
-    BuildPipelines, BuildTarget, LargePass, Lengths, ListSort, Pyramid, ViewDraw, Visit, Visits,
+    BuildPipelines, BuildTarget, LargePass, Lengths, ListSort, Pyramid, ViewDraw, Visit, Visits, workgroups,
 };
 use rasray_ads::{AdsError, SceneBinding};
 use rasray_gpu::{Access, ComputePipeline, RasterPipeline, Recorder, Stage};
-use rasray_shaders_glsl::constants::abuffer::ABUFFER_GROUP_SIZE;
 
 use crate::layout::{box_count, cell_count, draws, scratch};
 use crate::{Bounds, Config, Coverage, Header, March, Pool, Storage};
@@ -27,10 +26,16 @@ impl Boxes {
         })
     }
 
-    fn record(&self, recorder: &mut Recorder<'_>, target: BuildTarget<'_>, draws: &[ViewDraw], groups: u64) {
+    fn record(
+        &self,
+        recorder: &mut Recorder<'_>,
+        target: BuildTarget<'_>,
+        draws: &[ViewDraw],
+        triangles: u64,
+    ) {
         let vertices = 3 * box_count(target.geometry.desc().draw_count);
         recorder.begin_pass(Stage::Build, "abuffer/build_3_bounds");
-        target.dispatch(recorder, &self.find, groups, 0);
+        target.dispatch(recorder, &self.find, workgroups(triangles), 0);
         recorder.barrier(Access::COMPUTE, Access::VERTEX_READ | Access::FRAGMENT);
         for draw in draws {
             target.draw_vertices(recorder, &self.draw, *draw, vertices);
@@ -110,7 +115,6 @@ impl Build {
     pub(crate) fn record(&self, recorder: &mut Recorder<'_>, config: &Config, target: BuildTarget<'_>) {
         let cells = cell_count(config);
         let lists = cells * u64::from(config.lists());
-        let groups = |items: u64| items.div_ceil(u64::from(ABUFFER_GROUP_SIZE));
         let triangles = u64::from(target.geometry.triangle_count());
         let draws = draws(config);
         let shaders = Access::COMPUTE | Access::FRAGMENT;
@@ -125,8 +129,7 @@ impl Build {
         };
         let readers = shaders | Access::VERTEX_READ;
         target.record_header(recorder, "abuffer/build_0_header", cleared, readers);
-        let near = groups(triangles);
-        target.compute_pass(recorder, "abuffer/build_1_near", &self.near, near, 0, Access::COMPUTE);
+        target.items_pass(recorder, "abuffer/build_1_near", &self.near, triangles, 0, Access::COMPUTE);
         if let Some(large) = &self.large {
             large.record(recorder, target);
         }
@@ -134,10 +137,10 @@ impl Build {
             bounds.record(recorder, target, &draws);
         }
         if let Some(boxes) = &self.boxes {
-            boxes.record(recorder, target, &draws, groups(triangles));
+            boxes.record(recorder, target, &draws, triangles);
         }
         if let Some(scale) = &self.scale {
-            target.compute_pass(recorder, "abuffer/build_4_scale", scale, groups(cells), 0, shaders);
+            target.items_pass(recorder, "abuffer/build_4_scale", scale, cells, 0, shaders);
         }
         if let Some(lengths) = &self.lengths {
             lengths.record(recorder, target, &draws, lists, shaders);
@@ -146,8 +149,8 @@ impl Build {
         if let Some(conservative) = &self.conservative {
             conservative.record(recorder, target, &draws);
         }
-        let marks = groups(triangles.div_ceil(32));
-        target.compute_pass(recorder, "abuffer/build_9_lost", &self.lost, marks, 0, Access::COMPUTE);
+        let marks = triangles.div_ceil(32);
+        target.items_pass(recorder, "abuffer/build_9_lost", &self.lost, marks, 0, Access::COMPUTE);
         if let Some(pyramid) = &self.pyramid {
             pyramid.record(recorder, target, "abuffer/build_10_pyramid", &draws, Access::COMPUTE);
         }

@@ -12,7 +12,7 @@
 //! | definition | [`Design`], [`Parts`], [`Demand`], [`Pooled`], [`VARYING_SHARE`] |
 //! | options | [`Configured`], [`Common`], [`check_range`], [`check_work_budget`], [`default_work_budget`] |
 //! | buffers | [`PoolName`], [`Pools`], [`PoolBytes`], [`PoolContents`], [`HEADER_POOL`], [`Scratch`] |
-//! | passes | [`BuildPipelines`], [`BuildTarget`], [`ViewDraw`], [`Modules`], [`folded`] |
+//! | passes | [`BuildPipelines`], [`BuildTarget`], [`ViewDraw`], [`Modules`], [`workgroups`], [`folded`] |
 //! | cells of triangles | [`Visits`], [`Visit`], [`LargePass`], [`bin_groups`] |
 //! | lists and their depths | [`Lengths`], [`Scan`], [`ListSort`], [`Pyramid`] |
 //! | traces and surfaces | [`TraceKernels`], [`TraceKernelsDesc`], [`TraceModules`], [`Lookup`] |
@@ -38,7 +38,7 @@ pub use crate::viewpoint::box_is_same;
 pub use addressing::{Modules, TraceModules};
 pub use configured::{Common, Configured, check_range, check_work_budget};
 pub use design::{Demand, Design, Parts, default_work_budget};
-pub use groups::folded;
+pub use groups::{folded, workgroups};
 pub use kernels::{Lookup, TraceKernels, TraceKernelsDesc};
 pub use lengths::Lengths;
 pub use list_sort::ListSort;

@@ -16,6 +16,13 @@ pub struct PoolSize {
     pub element_bytes: u64,
 }
 
+impl PoolSize {
+    /// Returns the bytes of all elements.
+    pub fn bytes(&self) -> u64 {
+        self.elements * self.element_bytes
+    }
+}
+
 /// Sizes of the pools of a structure: the result of planning, which is plain arithmetic.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Sizes {
@@ -68,9 +75,11 @@ impl Sizes {
         Ok(self)
     }
 
-    /// Returns true if a pool is larger than the pool with the same name in `other`.
+    /// Returns true if a pool is larger than the pool with the same name in `other`, or has none there.
     pub fn exceed(&self, other: &Self) -> bool {
-        self.pools.iter().any(|pool| pool.elements > other.elements(pool.name))
+        self.pools
+            .iter()
+            .any(|pool| other.elements(pool.name).is_none_or(|elements| pool.elements > elements))
     }
 
     /// Refuses sizes of other pools than these, which are those of `structure`.
@@ -85,18 +94,24 @@ impl Sizes {
         Err(AdsError::OtherPools { structure, pools: names.join(", ") })
     }
 
-    /// Returns the number of elements of a pool.
+    /// Returns the number of elements of a pool of the structure that these sizes are of; 0 if they are of
+    /// another.
     pub fn elements_of(&self, pool: impl PoolName) -> u64 {
-        self.elements(pool.name())
+        self.elements(pool.name()).unwrap_or(0)
     }
 
     /// Returns the sum over all pools, bytes.
     pub fn bytes(&self) -> u64 {
-        self.pools.iter().map(|pool| pool.elements * pool.element_bytes).sum()
+        self.pools.iter().map(PoolSize::bytes).sum()
     }
 
-    /// Returns the number of elements of the pool with that name; 0 if there is none.
-    pub fn elements(&self, name: &str) -> u64 {
-        self.pools.iter().find(|pool| pool.name == name).map_or(0, |pool| pool.elements)
+    /// Returns the size of the pool with that name; absent if there is none.
+    pub fn pool(&self, name: &str) -> Option<&PoolSize> {
+        self.pools.iter().find(|pool| pool.name == name)
+    }
+
+    /// Returns the number of elements of the pool with that name; absent if there is none.
+    pub fn elements(&self, name: &str) -> Option<u64> {
+        self.pool(name).map(|pool| pool.elements)
     }
 }

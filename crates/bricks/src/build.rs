@@ -5,7 +5,6 @@ use std::mem::offset_of;
 use rasray_ads::AdsError;
 use rasray_ads::kit::{BuildPipelines, BuildTarget, Scan, ViewDraw, Visit, Visits};
 use rasray_gpu::{Access, ComputePipeline, Recorder};
-use rasray_shaders_glsl::constants::bricks::BRICKS_GROUP_SIZE;
 
 use crate::layout::bricks_of;
 use crate::{Config, Header, Pool, Views};
@@ -85,8 +84,7 @@ impl Build {
         let (records, lists) = (sizes.elements_of(Pool::Records), sizes.elements_of(Pool::Lists));
         let (along, bricks) = bricks_of(config.views, cells);
         let pass = |recorder: &mut Recorder<'_>, label, pipeline, invocations: u64, readers| {
-            let groups = invocations.div_ceil(BRICKS_GROUP_SIZE.into());
-            target.compute_pass(recorder, label, pipeline, groups, 0, readers);
+            target.items_pass(recorder, label, pipeline, invocations, 0, readers);
         };
         let compute = Access::COMPUTE;
         // The passes before count the workgroups of indirect passes.

@@ -9,7 +9,8 @@ use rasray_ads::{
 };
 use rasray_gpu::{BindingSet, Recorder, Requirements};
 
-use rasray_shaders_glsl::constants::bricks::{BRICKS_GROUP_SIZE, BRICKS_GROUPS_MOST};
+use rasray_shaders_glsl::constants::ads::BUILD_GROUP_SIZE;
+use rasray_shaders_glsl::constants::bricks::BRICKS_GROUPS_MOST;
 
 use crate::build::Build;
 use crate::grid::BRICK_SIDE;
@@ -50,7 +51,7 @@ fn first_header(config: &Config, sizes: &Sizes, extent: &GeometryExtent, eye: [f
         brick_demand: of_views,
         brick_capacity: capacity(Pool::Bricks),
         brick_first: [0, of_views, 0, 0, 0],
-        brick_groups: groups_of_levels(of_views.div_ceil(BRICKS_GROUP_SIZE).min(BRICKS_GROUPS_MOST)),
+        brick_groups: groups_of_levels(of_views.div_ceil(BUILD_GROUP_SIZE).min(BRICKS_GROUPS_MOST)),
         record_groups: groups_of_levels(0),
         capacity: capacity(Pool::Entries),
         near_capacity: capacity(Pool::Near),

@@ -1,10 +1,10 @@
 //! Build on the device: its pipelines, and its passes in the order they are recorded.
 
 use rasray_ads::AdsError;
-use rasray_ads::kit::{BuildPipelines, BuildTarget, Scan};
+use rasray_ads::kit::{BuildPipelines, BuildTarget, Scan, workgroups};
 use rasray_gpu::{Access, ComputePipeline, Recorder, Stage};
 use rasray_shaders_glsl::constants::bvh::{
-    BVH_CLUSTERS, BVH_DIGITS, BVH_GROUP_SIZE, BVH_TREELET_CLASSES, BVH_TREELET_ROUNDS,
+    BVH_CLUSTERS, BVH_DIGITS, BVH_TREELET_CLASSES, BVH_TREELET_ROUNDS,
 };
 
 use crate::layout::{cluster_levels, digit_counts, most_nodes, sort_chunks, treelet_classes, union_levels};
@@ -88,7 +88,7 @@ impl Build {
         let OfBuilder::Sah { boxes } = &self.of_builder else { return };
         record_header(recorder, target);
         recorder.begin_pass(Stage::Build, "bvh/build_1_boxes");
-        target.dispatch(recorder, boxes, groups(target.geometry.triangle_count()), 0);
+        target.dispatch(recorder, boxes, workgroups(target.geometry.triangle_count().into()), 0);
         recorder.barrier(Access::COMPUTE, Access::TRANSFER_READ);
         recorder.end_pass();
     }
@@ -293,14 +293,10 @@ impl Chunks {
     /// Returns the number of workgroups for this many chunks.
     fn groups(self, chunks: u64) -> u64 {
         match self {
-            Self::Serial => chunks.div_ceil(BVH_GROUP_SIZE.into()),
+            Self::Serial => workgroups(chunks),
             Self::Shared => chunks,
         }
     }
-}
-
-fn groups(items: u32) -> u64 {
-    items.div_ceil(BVH_GROUP_SIZE).into()
 }
 
 /// Records a pass with an invocation per item, whose writes the next pass can see.
@@ -312,7 +308,7 @@ fn pass(
     step: u32,
     items: u32,
 ) {
-    target.compute_pass(recorder, label, pipeline, groups(items), step, Access::COMPUTE);
+    target.items_pass(recorder, label, pipeline, items.into(), step, Access::COMPUTE);
 }
 
 fn record_header(recorder: &mut Recorder<'_>, target: BuildTarget<'_>) {

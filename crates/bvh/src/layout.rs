@@ -2,9 +2,10 @@
 
 use rasray_ads::kit::Scan;
 use rasray_ads::{AdsError, Sizes};
+use rasray_shaders_glsl::constants::ads::BUILD_GROUP_SIZE;
 use rasray_shaders_glsl::constants::bvh::{
-    BVH_CLUSTER_WORDS, BVH_CLUSTERS, BVH_CLUSTERS_KEPT, BVH_DIGIT_VALUES, BVH_GROUP_SIZE, BVH_LEAF_SHIFT,
-    BVH_SORT_CHUNK, BVH_TREELET, BVH_TREELET_CLASSES, BVH_TREELET_ROUNDS, BVH_UNION,
+    BVH_CLUSTER_WORDS, BVH_CLUSTERS, BVH_CLUSTERS_KEPT, BVH_DIGIT_VALUES, BVH_LEAF_SHIFT, BVH_SORT_CHUNK,
+    BVH_TREELET, BVH_TREELET_CLASSES, BVH_TREELET_ROUNDS, BVH_UNION,
 };
 
 use crate::{Builder, Children, Config, Pool, Record};
@@ -22,7 +23,7 @@ pub(crate) const BOX_WORDS: u64 = 6;
 const _: () = assert!(BVH_TREELET_ROUNDS * BVH_TREELET_CLASSES <= BVH_DIGIT_VALUES && BVH_TREELET > 1);
 const _: () = assert!(BVH_SORT_CHUNK <= BVH_DIGIT_VALUES);
 // Each invocation has an equal number of clusters, and merging has to make fewer of them.
-const _: () = assert!(BVH_CLUSTERS.is_multiple_of(BVH_GROUP_SIZE) && BVH_CLUSTERS_KEPT < BVH_CLUSTERS);
+const _: () = assert!(BVH_CLUSTERS.is_multiple_of(BUILD_GROUP_SIZE) && BVH_CLUSTERS_KEPT < BVH_CLUSTERS);
 
 /// Returns the words of the scratch pool.
 fn scratch_words(builder: Builder, triangles: u64) -> u64 {

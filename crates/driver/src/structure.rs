@@ -11,7 +11,6 @@ use rasray_gpu::{
     Access, BindingSet, ComputePipeline, Device, DriverTree, DriverTreeDesc, Feature, Recorder, Requirements,
     Stage,
 };
-use rasray_shaders_glsl::constants::driver::DRIVER_GROUP_SIZE;
 
 use crate::layout::{Demand, formula_bytes, plan};
 use crate::{Config, Contents, Header, Pool, well_formed};
@@ -130,8 +129,8 @@ impl Design for Passes {
         // The tree may have fewer boxes than there are triangles; the status then reports that they do not
         // fit.
         let boxes = parts.geometry.triangle_count().min(tree.boxes());
-        let groups = u64::from(boxes).div_ceil(DRIVER_GROUP_SIZE.into());
-        target.compute_pass(recorder, "driver/build_1_boxes", &self.boxes, groups, 0, Access::TREE_BUILD);
+        let pass = &self.boxes;
+        target.items_pass(recorder, "driver/build_1_boxes", pass, boxes.into(), 0, Access::TREE_BUILD);
         recorder.begin_pass(Stage::Build, "driver/build_2_tree");
         recorder.build_driver_tree(tree, parts.pools.pool(Pool::Boxes), boxes);
         recorder.end_pass();

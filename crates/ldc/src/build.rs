@@ -5,7 +5,6 @@ use std::mem::offset_of;
 use rasray_ads::kit::{BuildPipelines, BuildTarget, LargePass, Lengths, ListSort, ViewDraw, Visit, Visits};
 use rasray_ads::{AdsError, SceneBinding};
 use rasray_gpu::{Access, ComputePipeline, RasterPipeline, Recorder, Stage};
-use rasray_shaders_glsl::constants::ldc::LDC_GROUP_SIZE;
 
 use crate::layout::{cell_count, layer_capacity, scratch};
 use crate::{Accept, Config, Depth, Header, Making, Payload, Pool};
@@ -112,8 +111,8 @@ impl Build {
             sort.record(recorder, target, cells, false, long, shaders);
         }
         if let Some(attributes) = &self.attributes {
-            let groups = target.pools.sizes().elements_of(Pool::Payload).div_ceil(u64::from(LDC_GROUP_SIZE));
-            target.compute_pass(recorder, "ldc/build_9_attributes", attributes, groups, 0, shaders);
+            let fragments = target.pools.sizes().elements_of(Pool::Payload);
+            target.items_pass(recorder, "ldc/build_9_attributes", attributes, fragments, 0, shaders);
         }
         target.status_pass(recorder, "ldc/build_10_status", &self.status);
     }

@@ -5,7 +5,6 @@ use std::mem::offset_of;
 use rasray_ads::AdsError;
 use rasray_ads::kit::{BuildPipelines, BuildTarget, Lengths, Pyramid, Visit, Visits};
 use rasray_gpu::{Access, ComputePipeline, Recorder};
-use rasray_shaders_glsl::constants::primitive::PRIMITIVE_GROUP_SIZE;
 
 use crate::layout::{cell_count, faces};
 use crate::{Config, Coverage, Header, Pool, Storage};
@@ -46,18 +45,16 @@ impl Build {
     pub(crate) fn record(&self, recorder: &mut Recorder<'_>, config: &Config, target: BuildTarget<'_>) {
         let cells = cell_count(config);
         let lists = cells * u64::from(config.buckets);
-        let group = u64::from(PRIMITIVE_GROUP_SIZE);
         let shaders = Access::COMPUTE | Access::FRAGMENT;
         let views = [faces(config)];
 
         let readers = shaders | Access::VERTEX_READ;
         target.record_header(recorder, "primitive/build_0_header", &[Pool::Bounds, Pool::Lists], readers);
-        let groups = u64::from(target.geometry.triangle_count()).div_ceil(group);
-        target.compute_pass(recorder, "primitive/build_1_near", &self.near, groups, 0, shaders);
+        let triangles = target.geometry.triangle_count().into();
+        target.items_pass(recorder, "primitive/build_1_near", &self.near, triangles, 0, shaders);
         self.bounds.record(recorder, target, &views);
         if let Some(scale) = &self.scale {
-            let groups = cells.div_ceil(group);
-            target.compute_pass(recorder, "primitive/build_3_scale", scale, groups, 0, shaders);
+            target.items_pass(recorder, "primitive/build_3_scale", scale, cells, 0, shaders);
         }
         if let Some(pyramid) = &self.pyramid {
             pyramid.record(recorder, target, "primitive/build_4_pyramid", &views, shaders);

@@ -7,6 +7,7 @@ use crate::instruction::{HEADER_WORDS, op};
 const MAGIC: u32 = 0x0723_0203;
 const DECORATION_BINDING: u32 = 33;
 const DECORATION_DESCRIPTOR_SET: u32 = 34;
+const STORAGE_CLASS_STORAGE_BUFFER: u32 = 12;
 
 /// Words are not a module of SPIR-V.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -30,6 +31,11 @@ impl std::error::Error for NotAModule {}
 /// # Errors
 /// Words that are not a module, and bindings beyond 63.
 pub fn used_bindings(words: &[u32]) -> Result<Vec<u64>, NotAModule> {
+    used_bindings_of(words, |_| true)
+}
+
+/// Returns [`used_bindings`] of the variables in the storage classes that `is_wanted` accepts.
+fn used_bindings_of(words: &[u32], is_wanted: impl Fn(u32) -> bool) -> Result<Vec<u64>, NotAModule> {
     let invalid = |reason| NotAModule { reason };
     check_header(words)?;
     let mut places: HashMap<u32, [Option<u32>; 2]> = HashMap::new();
@@ -52,7 +58,10 @@ pub fn used_bindings(words: &[u32]) -> Result<Vec<u64>, NotAModule> {
             (op::DECORATE, [_, variable, DECORATION_BINDING, binding]) => {
                 places.entry(*variable).or_default()[1] = Some(*binding);
             }
-            // Decorations precede functions. A literal that happens to equal an id only adds a binding to the
+            (op::VARIABLE, [_, _, variable, class, ..]) if !in_function && !is_wanted(*class) => {
+                places.remove(variable);
+            }
+            // Decorations precede variables, and those functions. A literal that happens to equal an id only adds a binding to the
             // result.
             _ if in_function => {
                 for word in &instruction[1..] {
@@ -73,13 +82,15 @@ pub fn used_bindings(words: &[u32]) -> Result<Vec<u64>, NotAModule> {
     Ok(used)
 }
 
-/// Returns the number of storage buffers that a module uses, over all sets: the number that a device must let
-/// one stage access.
+/// Returns the number of storage buffers that a module of SPIR-V 1.3 or later uses, over all sets: the number
+/// that a device must let one stage access. Older modules may declare them as uniform blocks, which are not
+/// counted.
 ///
 /// # Errors
-/// Words that are not a module.
+/// As [`used_bindings`].
 pub fn storage_buffers_used(words: &[u32]) -> Result<u32, NotAModule> {
-    Ok(used_bindings(words)?.iter().map(|used| used.count_ones()).sum())
+    let used = used_bindings_of(words, |class| class == STORAGE_CLASS_STORAGE_BUFFER)?;
+    Ok(used.iter().map(|used| used.count_ones()).sum())
 }
 
 /// Checks that the words begin with the header of a module.
@@ -104,13 +115,17 @@ mod tests {
         length << 16 | operation
     }
 
-    /// Makes a module with buffers 10 to 12 at (0, 1), (2, 0) and (2, 3), and a function whose single
+    /// Makes a module with variables 10 to 12 at (0, 1), (2, 0) and (2, 3), and a function whose single
     /// instruction has `operands`.
     fn module(operands: &[u32]) -> Vec<u32> {
         let mut words = vec![MAGIC, 0x0001_0500, 0, 20, 0];
         for (id, set, binding) in [(10, 0, 1), (11, 2, 0), (12, 2, 3)] {
             words.extend([word(4, op::DECORATE), id, DECORATION_DESCRIPTOR_SET, set]);
             words.extend([word(4, op::DECORATE), id, DECORATION_BINDING, binding]);
+        }
+        // The last one is an image or an acceleration structure.
+        for (id, class) in [(10, STORAGE_CLASS_STORAGE_BUFFER), (11, STORAGE_CLASS_STORAGE_BUFFER), (12, 0)] {
+            words.extend([word(4, op::VARIABLE), 4, id, class]);
         }
         words.extend([word(5, op::FUNCTION), 1, 2, 0, 3, word(1 + operands.len() as u32, 65)]);
         words.extend(operands);
@@ -124,6 +139,12 @@ mod tests {
         assert_eq!(of(&[7, 8]), []);
         assert_eq!(of(&[10]), [0b10]);
         assert_eq!(of(&[12, 10, 11]), [0b10, 0, 0b1001]);
+    }
+
+    #[test]
+    fn storage_buffers_alone_are_counted() {
+        let of = |operands: &[u32]| storage_buffers_used(&module(operands)).expect("a module");
+        assert_eq!([of(&[7]), of(&[10]), of(&[12, 10, 11]), of(&[12])], [0, 1, 2, 0]);
     }
 
     #[test]

@@ -3,11 +3,11 @@
 use std::mem::offset_of;
 
 use rasray_ads::kit::{
-    BuildPipelines, BuildTarget, LargePass, Lengths, ListSort, Scan, ViewDraw, Visit, Visits,
+    BuildPipelines, BuildTarget, LargePass, Lengths, ListSort, Scan, ViewDraw, Visit, Visits, workgroups,
 };
 use rasray_ads::{AdsError, SceneBinding};
 use rasray_gpu::{Access, ComputePipeline, Recorder, Stage};
-use rasray_shaders_glsl::constants::voxel::{VOXEL_GROUP_SIZE, VOXEL_SCAN_OCTANTS};
+use rasray_shaders_glsl::constants::voxel::VOXEL_SCAN_OCTANTS;
 
 use crate::layout::{levels, list_count, scratch, upper_nodes};
 use crate::{Axes, Config, Header, Leaves, Marking, Payload, Pool, Storage, Traversal};
@@ -44,16 +44,15 @@ impl Octree {
     }
 
     fn record(&self, recorder: &mut Recorder<'_>, config: &Config, target: BuildTarget<'_>) {
-        let groups = |threads: u64| threads.div_ceil(VOXEL_GROUP_SIZE.into());
         let upper = upper_nodes(config);
         recorder.begin_pass(Stage::Build, "voxel/build_10_octants");
         for level in (0..levels(config) - 1).rev() {
-            target.dispatch(recorder, &self.octants, groups(1 << (3 * level)), level);
+            target.dispatch(recorder, &self.octants, workgroups(1 << (3 * level)), level);
             recorder.barrier(Access::COMPUTE, Access::COMPUTE);
         }
         recorder.end_pass();
         self.scan.record(recorder, target, "voxel/build_5_scan", upper, VOXEL_SCAN_OCTANTS, Access::COMPUTE);
-        target.compute_pass(recorder, "voxel/build_11_nodes", &self.nodes, groups(upper), 0, Access::COMPUTE);
+        target.items_pass(recorder, "voxel/build_11_nodes", &self.nodes, upper, 0, Access::COMPUTE);
     }
 }
 
@@ -100,7 +99,6 @@ impl Build {
     /// Records all passes of a build.
     pub(crate) fn record(&self, recorder: &mut Recorder<'_>, config: &Config, target: BuildTarget<'_>) {
         let lists = list_count(config.resolution);
-        let group = u64::from(VOXEL_GROUP_SIZE);
         let words = u64::from(config.grid()).pow(3).div_ceil(8);
         // If each triangle is kept only in the view it faces most, one instance draws it, in that view.
         let views = if config.axes == Axes::Triangle { 1 } else { 3 };
@@ -121,7 +119,7 @@ impl Build {
         }
         let axes = |recorder: &mut Recorder<'_>| {
             if let Some(axes) = &self.axes {
-                target.compute_pass(recorder, "voxel/build_3_axes", axes, words.div_ceil(group), 0, shaders);
+                target.items_pass(recorder, "voxel/build_3_axes", axes, words, 0, shaders);
             }
         };
         // If all views keep all fragments, the pass that stores fragments also sums normals, so the axes
@@ -145,8 +143,7 @@ impl Build {
             sort.record(recorder, target, lists, linked, long, Access::COMPUTE);
         }
         if let Some(longest) = &self.longest {
-            let (label, groups) = ("voxel/build_9_longest", lists.div_ceil(group));
-            target.compute_pass(recorder, label, longest, groups, 0, Access::COMPUTE);
+            target.items_pass(recorder, "voxel/build_9_longest", longest, lists, 0, Access::COMPUTE);
         }
         if let Some(octree) = &self.octree {
             octree.record(recorder, config, target);

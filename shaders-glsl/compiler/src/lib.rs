@@ -256,6 +256,13 @@ fn choices(line: &str) -> Result<Vec<String>, String> {
     Ok(lines)
 }
 
+/// Returns the folder of a module if its entry is in another one: the structure that a shared entry is compiled
+/// for.
+fn structure_of<'a>(name: &'a str, entry: &str) -> Option<&'a str> {
+    let (folder, _) = name.split_once('/')?;
+    (entry.split('/').next() != Some(folder)).then_some(folder)
+}
+
 /// Reads the permutation list, `permutations.txt` of `rasray-shaders-glsl`, which describes its lines. `#`
 /// starts a comment.
 ///
@@ -283,8 +290,11 @@ pub fn read_permutations(text: &str) -> Result<Vec<Permutation>, String> {
             let (name, rest) = line.split_once('=').unwrap_or_default();
             let mut words = rest.split_whitespace();
             let entry = words.next().ok_or_else(|| format!("line {}: no entry file", number + 1))?;
-            let defines = words
-                .map(|word| word.split_once('=').unwrap_or((word, "")))
+            let own = words.map(|word| word.split_once('=').unwrap_or((word, "")));
+            let defines = structure_of(name.trim(), entry)
+                .map(|structure| ("STRUCTURE", structure))
+                .into_iter()
+                .chain(own)
                 .map(|(macro_name, value)| (macro_name.to_owned(), value.to_owned()))
                 .collect();
             let line = Permutation {
@@ -349,8 +359,12 @@ mod tests {
             names("[a+b] .address\nx = x.comp M=1\n[c]\ny = y.comp"),
             ["x M=1", "x.address M=1 ADDRESSING_ADDRESS=", "y"]
         );
-        let all = "[q] .address\nx = x.comp STRUCTURE=q\n[p] .address\nx = x.comp STRUCTURE=p\ny = y.comp STRUCTURE=p
-            [r]\nx = x.comp STRUCTURE=r\n[s] .address\nx = x.comp STRUCTURE=s\n[t+A+B]\nt.A.B = t.comp A<B=*\n";
+        assert_eq!(
+            names("[a]\np/x = all/x.comp M=1\np/y = p/y.comp M=1"),
+            ["p/x STRUCTURE=p M=1", "p/y M=1"]
+        );
+        let all = "[q] .address\nq/x = x.comp\n[p] .address\np/x = x.comp\np/y = y.comp
+            [r]\nr/x = x.comp\n[s] .address\ns/x = x.comp\n[t+A+B]\nt.A.B = t.comp A<B=*\n";
         let pairs = ["t.p.q A=p B=q", "t.p.s A=p B=s", "t.q.s A=q B=s"];
         assert!(names(all).ends_with(&pairs.map(str::to_owned)));
         let pair = read_permutations(all).expect("the list is well formed").pop().expect("a pair");

@@ -86,7 +86,7 @@ where
         let Check::Grow(sizes) = structure.check(&status, 0).expect("sizes that do") else {
             panic!("capacity for {capacity} does not grow")
         };
-        assert_eq!((sizes.elements("entries"), sizes.elements("near")), (entries, near));
+        assert_eq!((sizes.elements("entries"), sizes.elements("near")), (Some(entries), Some(near)));
         structure.resize(bench.device(), &sizes).expect("it fits");
         assert!(bench.build_once(&mut structure, EYE).complete, "a build completes with its exact demand");
         check(&structure);

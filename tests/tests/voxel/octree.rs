@@ -194,7 +194,7 @@ fn nodes_grow_to_what_they_take() {
             let Check::Grow(sizes) = structure.check(&status, 0).expect("sizes that do") else {
                 panic!("capacity for {nodes} does not grow")
             };
-            assert_eq!(sizes.elements("nodes"), u64::from(header.node_demand));
+            assert_eq!(sizes.elements("nodes"), Some(header.node_demand.into()));
             let rays = rays(&complete, 50);
             let (hits, counters) = trace_in_rounds(&bench, &structure, &rays, TraceMode::Closest, 4);
             assert_eq!(counters.not_ready as usize, rays.len());

@@ -8,7 +8,7 @@ use rasray_gpu::{
 use rasray_shaders_glsl::records::BuildConstants;
 
 use crate::kit::addressing::halves;
-use crate::kit::groups::folded;
+use crate::kit::groups::{folded, workgroups};
 use crate::kit::{Modules, PoolName, Pools};
 use crate::{AdsError, Geometry, SceneBinding};
 
@@ -186,6 +186,20 @@ impl BuildTarget<'_> {
         self.dispatch(recorder, pipeline, groups, step);
         recorder.barrier(Access::COMPUTE, readers);
         recorder.end_pass();
+    }
+
+    /// Records a labelled pass with an invocation per item, in workgroups of `BUILD_GROUP_SIZE`, as
+    /// [`BuildTarget::compute_pass`].
+    pub fn items_pass(
+        &self,
+        recorder: &mut Recorder<'_>,
+        label: &str,
+        pipeline: &ComputePipeline,
+        items: u64,
+        step: u32,
+        readers: Access,
+    ) {
+        self.compute_pass(recorder, label, pipeline, workgroups(items), step, readers);
     }
 
     /// Records a labelled pass of several dispatches one after the other, each with its number as step;

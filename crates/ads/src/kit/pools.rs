@@ -376,5 +376,5 @@ fn allocate(
 }
 
 fn bytes(sizes: &Sizes, name: &str) -> u64 {
-    sizes.pools.iter().find(|pool| pool.name == name).map_or(0, |pool| pool.elements * pool.element_bytes)
+    sizes.pool(name).map_or(0, PoolSize::bytes)
 }

@@ -109,7 +109,7 @@ fn every_edge_capacity(config: Config) {
         };
         let more = if pages { found / VARYING_SHARE } else { 0 };
         let grown = if nodes_capacity < found { found + more } else { nodes_capacity };
-        assert_eq!((sizes.elements("nodes"), sizes.elements("near")), (grown, near));
+        assert_eq!((sizes.elements("nodes"), sizes.elements("near")), (Some(grown), Some(near)));
         structure.resize(bench.device(), &sizes).expect("it fits");
         complete_grown(&bench, &mut structure, EYE.into(), spread > 0);
         check_well_formed(&bench, &structure);
@@ -174,7 +174,7 @@ fn every_edge_capacity_of_the_conservative_lists() {
             check_well_formed(&bench, &structure);
             let grown = match structure.check(&status, 0).expect("sizes that do") {
                 Check::Complete => None,
-                Check::Grow(sizes) => Some((sizes.elements("nodes"), sizes.elements("conservative"))),
+                Check::Grow(sizes) => sizes.elements("nodes").zip(sizes.elements("conservative")),
             };
             let (hits, counters) = trace_in_rounds(&bench, &structure, &rays, TraceMode::Closest, 4);
             assert_eq!(status.complete, counters.not_ready == 0, "{config:?}");
