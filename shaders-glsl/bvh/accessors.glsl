@@ -5,6 +5,7 @@
 
 #include "ads/pools.glsl"
 #include "bvh/types.glsl"
+#include "bvh/steps.glsl"
 
 STRUCTURE_HEADER(Bvh, bvh)
 #define BVH_HEADER(s) STRUCTURE_HEADER_OF(Bvh, bvh, s)
@@ -51,15 +52,20 @@ BvhChildren bvh_children(BvhRef s, uint node, bvec3 descends, inout uint corrupt
         return BvhChildren(far, far, far, far, far, far, uvec4(BVH_NONE));
     }
     if (BVH_CHILDREN == BVH_FOUR) {
-        // Lower sides stand before upper ones, so that choosing the place is cheaper than choosing between
-        // both.
-        uvec3 first = 8u * node + uvec3(0u, 2u, 4u) + uvec3(descends);
-        uvec3 last = first ^ 1u;
+        uvec4 place = BVH_NODE_VECTORS(s)[4u * node];
+        uvec4 sides_xy = BVH_NODE_VECTORS(s)[4u * node + 1u];
+        uvec4 sides_z = BVH_NODE_VECTORS(s)[4u * node + 2u];
+        vec3 origin = uintBitsToFloat(place.xyz);
+        vec3 sizes = steps_sizes(place.w);
+        uvec3 lower = uvec3(sides_xy.xz, sides_z.x);
+        uvec3 upper = uvec3(sides_xy.yw, sides_z.y);
+        uvec3 first = mix(lower, upper, descends);
+        uvec3 last = mix(upper, lower, descends);
         return BvhChildren(
-            uintBitsToFloat(BVH_NODE_VECTORS(s)[first.x]), uintBitsToFloat(BVH_NODE_VECTORS(s)[last.x]),
-            uintBitsToFloat(BVH_NODE_VECTORS(s)[first.y]), uintBitsToFloat(BVH_NODE_VECTORS(s)[last.y]),
-            uintBitsToFloat(BVH_NODE_VECTORS(s)[first.z]), uintBitsToFloat(BVH_NODE_VECTORS(s)[last.z]),
-            BVH_NODE_VECTORS(s)[8u * node + 6u]);
+            steps_sides(first.x, origin.x, sizes.x), steps_sides(last.x, origin.x, sizes.x),
+            steps_sides(first.y, origin.y, sizes.y), steps_sides(last.y, origin.y, sizes.y),
+            steps_sides(first.z, origin.z, sizes.z), steps_sides(last.z, origin.z, sizes.z),
+            BVH_NODE_VECTORS(s)[4u * node + 3u]);
     }
     uvec4 lower_0 = BVH_NODE_VECTORS(s)[4u * node];
     uvec4 upper_0 = BVH_NODE_VECTORS(s)[4u * node + 1u];
@@ -129,7 +135,7 @@ void bvh_set_record(BvhRef s, uint record, BvhRecord value) {
 // Returns the place in the pool of a node of two children, counted in such nodes: behind the nodes of four
 // that are made of them, if there are any.
 uint bvh_pair_place(BvhRef s, uint node) {
-    return BVH_CHILDREN == BVH_FOUR ? 2u * BVH_HEADER(s).node_capacity + node : node;
+    return BVH_CHILDREN == BVH_FOUR ? BVH_HEADER(s).node_capacity + node : node;
 }
 
 // Reads a node of two children member by member, as an invocation reads its own writes. An index past the end
@@ -193,12 +199,27 @@ void bvh_set_children_of_four(BvhRef s, uint node, uvec4 children, mat3x4 lower,
     if (node >= BVH_HEADER(s).node_capacity) {
         return;
     }
-    BVH_NODES_OF_FOUR(s)[node].lower_x = lower[0];
-    BVH_NODES_OF_FOUR(s)[node].upper_x = upper[0];
-    BVH_NODES_OF_FOUR(s)[node].lower_y = lower[1];
-    BVH_NODES_OF_FOUR(s)[node].upper_y = upper[1];
-    BVH_NODES_OF_FOUR(s)[node].lower_z = lower[2];
-    BVH_NODES_OF_FOUR(s)[node].upper_z = upper[2];
+    vec3 origin;
+    uint steps = 0u;
+    uvec2 sides[3];
+    [[unroll]] for (uint axis = 0u; axis < 3u; axis++) {
+        vec4 low = steps_lower(lower[axis]);
+        vec4 high = steps_upper(upper[axis]);
+        origin[axis] = min(min(low.x, low.y), min(low.z, low.w));
+        uint exponent = steps_exponent(origin[axis], max(max(high.x, high.y), max(high.z, high.w)));
+        float size = uintBitsToFloat(exponent << 23u);
+        steps |= exponent << 8u * axis;
+        sides[axis] = uvec2(0u);
+        [[unroll]] for (uint place = 0u; place < BVH_FOUR; place++) {
+            sides[axis].x |= steps_below(low[place], origin[axis], size) << 8u * place;
+            sides[axis].y |= steps_above(high[place], origin[axis], size) << 8u * place;
+        }
+    }
+    BVH_NODES_OF_FOUR(s)[node].origin = origin;
+    BVH_NODES_OF_FOUR(s)[node].steps = steps;
+    BVH_NODES_OF_FOUR(s)[node].x = sides[0];
+    BVH_NODES_OF_FOUR(s)[node].y = sides[1];
+    BVH_NODES_OF_FOUR(s)[node].z = sides[2];
     BVH_NODES_OF_FOUR(s)[node].children = children;
 }
 

@@ -16,6 +16,9 @@
 // Number of children of a node of four.
 #define BVH_FOUR 4u
 
+// Greatest number of steps from the origin of a node of four to a side of a child's box.
+#define BVH_STEPS 255u
+
 // Number of subtrees that a ray remembers. If there are more, all are forgotten, and found again through the
 // links to parents.
 #define BVH_STACK 32u

@@ -52,23 +52,20 @@ struct BvhNode {
     uint other_end;
 };
 
-// Inner node of a tree with four children per node, whose boxes lie side by side, so that they are tested
-// together. Shared, 128 bytes.
+// Inner node of a tree with four children per node. The boxes of its children are stored in steps within their
+// union: one byte per side, rounded outwards, so that a stored box contains the exact one. Shared, 64 bytes.
 // A link refers to one child of one node: four times the node's number, plus that of the child.
 struct BvhNodeOfFour {
-    vec4 lower_x;           // lower corners of the children, metres relative to the frame origin
-    vec4 upper_x;           // upper corners
-    vec4 lower_y;           // lower corners
-    vec4 upper_y;           // upper corners
-    vec4 lower_z;           // lower corners
-    vec4 upper_z;           // upper corners
-    // references of the children: nodes' numbers, or leaves; BVH_NONE where there is none, with the box of the first
-    uvec4 children;
+    vec3 origin;            // lower corner of the union of the boxes, metres relative to the frame origin
+    uint steps;             // sizes of a step along x, y and z: biased exponents of single precision, a byte each
+    uvec2 x;                // sides along x in steps from the origin, a byte per child: lower sides, then upper ones
+    uvec2 y;                // sides along y
+    uvec2 z;                // sides along z
     // link by which this node is reached: four times the parent's number, plus that of the child; BVH_NONE for the root
     uint parent;
-    uint spare_0;           // zero
-    uint spare_1;           // zero
-    uint spare_2;           // zero
+    uint spare;             // zero
+    // references of the children: nodes' numbers, or leaves; BVH_NONE where there is none, with the box of the first
+    uvec4 children;
 };
 
 // Triangle in the order of the leaves. Shared, 40 bytes.

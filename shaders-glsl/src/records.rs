@@ -6,7 +6,7 @@
 
 use bytemuck::{Pod, Zeroable};
 
-use crate::constants::bvh::BVH_NONE;
+use crate::constants::bvh::{BVH_NONE, BVH_STEPS};
 use crate::constants::contract::{PRIMITIVE_NONE, RAY_LIGHT_MOST, RAY_LIGHT_SHIFT};
 
 include!(concat!(env!("OUT_DIR"), "/records.rs"));
@@ -55,38 +55,92 @@ impl BvhNode {
 
 impl BvhNodeOfFour {
     /// Makes a node with these children, one to four, that is reached by a link: reference and box of each.
+    /// The boxes that [`BvhNodeOfFour::children`] returns contain these.
     pub fn new(parent: u32, children: &[(u32, [[f32; 3]; 2])]) -> Self {
         let mut node = Self { children: [BVH_NONE; 4], parent, ..Self::zeroed() };
-        for slot in 0..4 {
-            // The box of an absent child does not change a union.
-            let (reference, bounds) = children.get(slot).copied().unwrap_or((BVH_NONE, children[0].1));
-            node.children[slot] = reference;
-            node.set_box(slot, bounds);
+        for (place, (reference, _)) in node.children.iter_mut().zip(children) {
+            *place = *reference;
         }
+        // The box of an absent child does not change a union.
+        let boxes: [_; 4] = std::array::from_fn(|slot| children.get(slot).unwrap_or(&children[0]).1);
+        node.set_boxes(boxes);
         node
     }
 
-    /// Sets the box of a child, 0 to 3.
-    pub fn set_box(&mut self, slot: usize, [lower, upper]: [[f32; 3]; 2]) {
-        let axes = [
-            (&mut self.lower_x, &mut self.upper_x),
-            (&mut self.lower_y, &mut self.upper_y),
-            (&mut self.lower_z, &mut self.upper_z),
-        ];
-        for (axis, (lowers, uppers)) in axes.into_iter().enumerate() {
-            (lowers[slot], uppers[slot]) = (lower[axis], upper[axis]);
+    /// Sets the boxes of all children.
+    pub fn set_boxes(&mut self, boxes: [[[f32; 3]; 2]; 4]) {
+        self.steps = 0;
+        for axis in 0..3 {
+            let sides = |corner: usize| boxes.map(|bounds| bounds[corner][axis]);
+            // NaN becomes a side that is as far away as any.
+            let lower = sides(0).map(|side| if side >= f32::MIN { side.min(f32::MAX) } else { f32::MIN });
+            let upper = sides(1).map(|side| if side <= f32::MAX { side.max(f32::MIN) } else { f32::MAX });
+            let origin = lower.into_iter().fold(f32::INFINITY, f32::min);
+            let exponent = step_exponent(origin, upper.into_iter().fold(f32::NEG_INFINITY, f32::max));
+            let size = f32::from_bits(exponent << 23);
+            let bytes = |numbers: [u8; 4]| u32::from_le_bytes(numbers);
+            self.origin[axis] = origin;
+            self.steps |= exponent << (8 * axis);
+            *self.sides_mut(axis) = [
+                bytes(lower.map(|side| steps_below(side, origin, size))),
+                bytes(upper.map(|side| steps_above(side, origin, size))),
+            ];
         }
     }
 
-    /// Returns number, reference and box of the existing children.
+    /// Returns number, reference and stored box of the existing children.
     pub fn children(&self) -> impl Iterator<Item = (u32, u32, [[f32; 3]; 2])> {
         let node = *self;
-        (0..4_usize).filter(move |slot| node.children[*slot] != BVH_NONE).map(move |slot| {
-            let lower = [node.lower_x[slot], node.lower_y[slot], node.lower_z[slot]];
-            let upper = [node.upper_x[slot], node.upper_y[slot], node.upper_z[slot]];
-            (slot as u32, node.children[slot], [lower, upper])
-        })
+        let side = move |slot: usize, corner: usize| -> [f32; 3] {
+            std::array::from_fn(|axis| {
+                let number = node.sides(axis)[corner].to_le_bytes()[slot];
+                side_of(number, node.origin[axis], node.step_sizes()[axis])
+            })
+        };
+        (0..4_usize)
+            .filter(move |slot| node.children[*slot] != BVH_NONE)
+            .map(move |slot| (slot as u32, node.children[slot], [side(slot, 0), side(slot, 1)]))
     }
+
+    /// Returns the sizes of a step along the axes, metres.
+    pub fn step_sizes(&self) -> [f32; 3] {
+        std::array::from_fn(|axis| f32::from_bits((self.steps >> (8 * axis) & 0xFF) << 23))
+    }
+
+    fn sides(&self, axis: usize) -> [u32; 2] {
+        [self.x, self.y, self.z][axis]
+    }
+
+    fn sides_mut(&mut self, axis: usize) -> &mut [u32; 2] {
+        [&mut self.x, &mut self.y, &mut self.z][axis]
+    }
+}
+
+// The arithmetic of `bvh/steps.glsl`.
+
+fn side_of(number: u8, origin: f32, size: f32) -> f32 {
+    origin + f32::from(number) * size
+}
+
+/// Returns the exponent of the smallest step of which `BVH_STEPS` lead from one side to another, or beyond.
+fn step_exponent(origin: f32, end: f32) -> u32 {
+    let bits = ((end - origin) / BVH_STEPS as f32).to_bits();
+    let exponent = ((bits + 0x7F_FFFF) >> 23).clamp(1, 254);
+    let reaches = side_of(u8::MAX, origin, f32::from_bits(exponent << 23)) >= end;
+    if reaches { exponent } else { (exponent + 1).min(254) }
+}
+
+/// Returns the largest number of steps that does not lead beyond a side.
+fn steps_below(side: f32, origin: f32, size: f32) -> u8 {
+    // A number beyond the range of the type becomes its nearest.
+    let number = ((side - origin) / size).floor() as u8;
+    if side_of(number, origin, size) > side { number.saturating_sub(1) } else { number }
+}
+
+/// Returns the smallest number of steps that leads to a side, or beyond.
+fn steps_above(side: f32, origin: f32, size: f32) -> u8 {
+    let number = ((side - origin) / size).ceil() as u8;
+    if side_of(number, origin, size) < side { number.saturating_add(1) } else { number }
 }
 
 impl BvhRecord {
@@ -141,5 +195,98 @@ impl Ray {
     /// every other ray.
     pub fn light(&self) -> Option<u32> {
         (self.flags >> RAY_LIGHT_SHIFT).checked_sub(1)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    type Box3 = [[f32; 3]; 2];
+
+    /// Checks that the stored boxes contain these, and returns the greatest number of steps by which a side
+    /// lies farther out.
+    fn steps_beyond(boxes: [Box3; 4]) -> f64 {
+        let children = boxes.map(|bounds| (7, bounds));
+        let node = BvhNodeOfFour::new(3, &children);
+        assert_eq!((node.parent, node.children), (3, [7; 4]));
+        let mut most = 0.0_f64;
+        for ((slot, reference, [lower, upper]), exact) in node.children().zip(boxes) {
+            assert_eq!(reference, 7);
+            for axis in 0..3 {
+                let exact = [exact[0][axis], exact[1][axis]];
+                assert!(
+                    !(lower[axis] > exact[0]) && !(upper[axis] < exact[1]),
+                    "{slot}, {axis}: {lower:?} {upper:?} {exact:?}"
+                );
+                let far = [
+                    f64::from(exact[0]) - f64::from(lower[axis]),
+                    f64::from(upper[axis]) - f64::from(exact[1]),
+                ];
+                let step = f64::from(node.step_sizes()[axis]);
+                most = far.into_iter().fold(most, |most, far| most.max(far / step));
+            }
+        }
+        most
+    }
+
+    /// Returns numbers from 0 to 1, always the same.
+    fn numbers() -> impl FnMut() -> f32 {
+        let mut state = 1_u64;
+        move || {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (state >> 40) as f32 / (1 << 24) as f32
+        }
+    }
+
+    #[test]
+    fn stored_boxes_contain_the_exact_ones_and_are_a_step_larger_at_most() {
+        let mut number = numbers();
+        for (scale, place) in
+            [(1.0, 0.0), (1.0, 1.0e3), (1.0e-6, 1.0), (1.0e30, 0.0), (1.0e-42, 0.0), (1.0e-7, 1.0e4)]
+        {
+            for _ in 0..2_000 {
+                let boxes = std::array::from_fn(|_| {
+                    let lower: [f32; 3] = std::array::from_fn(|_| place + scale * (number() - 0.5));
+                    [lower, lower.map(|side| side + scale * number() * number())]
+                });
+                // Rounding of a far place may add as much as its own unit.
+                let rounding = f64::from(place) * 2.0_f64.powi(-22) / (f64::from(scale) / 256.0);
+                let beyond = steps_beyond(boxes);
+                assert!(beyond <= 1.001 + rounding, "{scale}, {place}: {beyond} {boxes:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn boxes_without_extent_are_stored_exactly() {
+        for place in [0.0, -0.0, 0.1, -7.5e8, 1.0e-40, f32::MIN_POSITIVE, f32::MAX, f32::MIN] {
+            assert_eq!(steps_beyond([[[place; 3]; 2]; 4]), 0.0, "{place}");
+        }
+    }
+
+    /// The other boxes of the node then are as large as numbers allow, and no side is NaN.
+    #[test]
+    fn sides_that_are_not_finite_leave_boxes_that_contain_all() {
+        let small = [[0.25; 3], [0.5; 3]];
+        let (infinite, nan) = (f32::INFINITY, f32::NAN);
+        for odd in [
+            [[nan; 3]; 2],
+            [[-infinite; 3], [infinite; 3]],
+            [[infinite; 3]; 2],
+            [[-infinite; 3]; 2],
+            [[f32::MIN; 3], [f32::MAX; 3]],
+            [[nan; 3], [1.0; 3]],
+        ] {
+            let node = BvhNodeOfFour::new(0, &[(1, small), (2, odd), (3, small)]);
+            for (_, reference, [lower, upper]) in node.children() {
+                assert!(lower.iter().chain(&upper).all(|side| !side.is_nan()), "{odd:?}");
+                let exact = if reference == 2 { odd } else { small };
+                let exact = exact.map(|corner| corner.map(|side| side.clamp(f32::MIN, f32::MAX)));
+                let is_within =
+                    (0..3).all(|axis| !(lower[axis] > exact[0][axis]) && !(upper[axis] < exact[1][axis]));
+                assert!(is_within, "{odd:?}: {lower:?} {upper:?}");
+            }
+        }
     }
 }

@@ -2,7 +2,7 @@
 //!
 //! The conversion keeps the nodes of the tree of two that lower the surface area heuristic's cost the most.
 //! It finds them from the leaves up: Ylitie, Karras, Laine, "Efficient incoherent ray traversal on GPUs
-//! through compressed wide BVHs", HPG 2017, section 3.1. Leaves and boxes stay as they are.
+//! through compressed wide BVHs", HPG 2017, section 3.1. Leaves stay as they are; boxes are stored in steps.
 
 use rasray_shaders_glsl::constants::bvh::{BVH_FOUR, BVH_LEAF, BVH_NONE};
 

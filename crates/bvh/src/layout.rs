@@ -8,7 +8,7 @@ use rasray_shaders_glsl::constants::bvh::{
     BVH_TREELET, BVH_TREELET_CLASSES, BVH_TREELET_ROUNDS, BVH_UNION,
 };
 
-use crate::{Builder, Children, Config, Pool, Record};
+use crate::{Builder, Children, Config, Node, NodeOfFour, Pool, Record};
 
 /// Name of the structure in errors.
 pub(crate) const NAME: &str = "bvh";
@@ -22,6 +22,7 @@ pub(crate) const BOX_WORDS: u64 = 6;
 // which had four. The list of nodes of four takes the place of all counts.
 const _: () = assert!(BVH_TREELET_ROUNDS * BVH_TREELET_CLASSES <= BVH_DIGIT_VALUES && BVH_TREELET > 1);
 const _: () = assert!(BVH_SORT_CHUNK <= BVH_DIGIT_VALUES);
+const _: () = assert!(size_of::<Node>() == size_of::<NodeOfFour>());
 // Each invocation has an equal number of clusters, and merging has to make fewer of them.
 const _: () = assert!(BVH_CLUSTERS.is_multiple_of(BUILD_GROUP_SIZE) && BVH_CLUSTERS_KEPT < BVH_CLUSTERS);
 
@@ -89,15 +90,9 @@ pub(crate) fn most_nodes(children: Children, triangles: u64) -> u64 {
     }
 }
 
-/// Returns the elements behind the tree in the pool of nodes, which hold the nodes of two children from which
-/// the device makes nodes of four.
+/// Returns the number of nodes of two children from which the device makes nodes of four. They lie behind the
+/// tree in the pool of nodes, and are as large.
 pub(crate) fn pair_elements(config: &Config, triangles: u64) -> u64 {
-    let bytes = Children::Two.node_bytes() as u64 * pairs(config, triangles);
-    bytes.div_ceil(Children::Four.node_bytes() as u64)
-}
-
-/// Returns the number of nodes of two children from which the device makes nodes of four.
-fn pairs(config: &Config, triangles: u64) -> u64 {
     match (config.made_children(), config.builder) {
         (Children::Two, _) | (_, Builder::Sah) => 0,
         (Children::Four, Builder::Lbvh | Builder::Ploc | Builder::Trbvh | Builder::Refit) => {
@@ -131,13 +126,12 @@ pub fn plan(config: &Config, triangles: u64) -> Result<Sizes, AdsError> {
 /// Bytes of a tree by the formula of `docs/systems/bvh.md`, for counted nodes and triangles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct FormulaBytes {
-    /// Bytes that traces read: header 96, 64 per node of two children or 128 per node of four, 40 per
-    /// triangle.
+    /// Bytes that traces read: header 96, 64 per node, 40 per triangle.
     pub traced: u64,
     /// Bytes that only the build uses. With [`Builder::Sah`] 28 per triangle. With the others 16 per
     /// triangle, 1024 for every 256 triangles, 4 for every 1024 triangles, and 24 per union of four boxes
     /// (including unions of unions), each rounded up, or with [`Builder::Ploc`] in place of the unions 28 per
-    /// triangle; and for nodes of four 128 per two triangles after the first.
+    /// triangle; and for nodes of four 64 per triangle after the first.
     pub scratch: u64,
 }
 
@@ -151,10 +145,6 @@ impl FormulaBytes {
 /// Computes the bytes by the formula of `docs/systems/bvh.md`. It shares no code with [`plan`], so that the
 /// two check each other.
 pub fn formula_bytes(config: &Config, nodes: u64, triangles: u64) -> FormulaBytes {
-    let node = match config.made_children() {
-        Children::Four => 128,
-        Children::Two => 64,
-    };
     let scratch = match config.builder {
         Builder::Sah => 28 * triangles,
         Builder::Lbvh | Builder::Ploc | Builder::Trbvh | Builder::Refit => {
@@ -165,11 +155,14 @@ pub fn formula_bytes(config: &Config, nodes: u64, triangles: u64) -> FormulaByte
             }
             let boxes = if config.builder == Builder::Ploc { 28 * triangles } else { 24 * unions };
             let chunks = triangles.div_ceil(256);
-            let pairs = if node == 128 { 128 * (triangles.max(1) - 1).div_ceil(2) } else { 0 };
+            let pairs = match config.made_children() {
+                Children::Four => 64 * (triangles.max(1) - 1),
+                Children::Two => 0,
+            };
             pairs + 16 * triangles + 1024 * chunks + 4 * chunks.div_ceil(4) + boxes
         }
     };
-    FormulaBytes { traced: 96 + node * nodes + 40 * triangles, scratch }
+    FormulaBytes { traced: 96 + 64 * nodes + 40 * triangles, scratch }
 }
 
 #[cfg(test)]

@@ -95,7 +95,7 @@ fn first_header(
     let node_capacity = capacity(Pool::Nodes) - pair_elements;
     let pair_capacity = match config.made_children() {
         Children::Two => node_capacity,
-        Children::Four => 2 * pair_elements,
+        Children::Four => pair_elements,
     };
     // Place of the primitive index of each record: behind the boxes, or in the second word of each key.
     let (order_offset, order_stride) = match config.builder {

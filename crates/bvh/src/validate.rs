@@ -72,6 +72,11 @@ impl Contents {
         }
     }
 
+    /// Returns the sizes of a step of a node's boxes along the axes; 0 if they are exact.
+    fn steps(&self, node: u32) -> [f32; 3] {
+        self.nodes_of_four.get(node as usize).map_or([0.0; 3], NodeOfFour::step_sizes)
+    }
+
     /// Returns the link to its parent that a node stores.
     fn parent(&self, node: u32) -> Option<u32> {
         let two = self.nodes.get(node as usize).map(|node| node.parent);
@@ -86,8 +91,8 @@ pub struct Shape {
     pub leaves: usize,
     /// Number of inner nodes on the longest path from the root to a leaf.
     pub levels: usize,
-    /// Expected number of nodes and triangles that a ray through the root's box hits, by surface area; 0 if
-    /// that box has no area.
+    /// Expected number of nodes and triangles that a ray through the root's box hits, by surface area of the
+    /// boxes' contents; 0 if the root's box has no area.
     pub cost: f64,
 }
 
@@ -113,7 +118,8 @@ pub enum Fault {
         /// Link that the node stores.
         parent: u32,
     },
-    /// Box that is not the union of the boxes below it.
+    /// Box that is not the union of the boxes below it or, in a node of four, not the smallest of its steps
+    /// around that.
     #[error("link {link}: the box is {stored}, its contents have {contents}")]
     Bounds {
         /// Link of the child.
@@ -142,8 +148,8 @@ pub enum Fault {
 }
 
 /// Checks that every triangle has one record and every record one leaf, that nodes store the link by which
-/// they are reached, and that every box is the union of the boxes below it. Subnormal coordinates count as
-/// zero.
+/// they are reached, and that every box is the union of the boxes below it, in nodes of four up to a step.
+/// Subnormal coordinates count as zero.
 ///
 /// # Errors
 /// The first fault found.
@@ -191,9 +197,10 @@ pub fn well_formed(contents: &Contents) -> Result<Shape, Fault> {
         }
     }
     for &node in &order {
+        let steps = contents.steps(node);
         for (link, _, stored) in contents.children(node) {
             let contents = below[link as usize];
-            if without_subnormals(stored) != without_subnormals(contents) {
+            if !fits(without_subnormals(stored), without_subnormals(contents), steps) {
                 let (stored, contents) = (format!("{stored:?}"), format!("{contents:?}"));
                 return Err(Fault::Bounds { link, stored, contents });
             }
@@ -207,7 +214,7 @@ pub fn well_formed(contents: &Contents) -> Result<Shape, Fault> {
         }
     }
     each_once(&records).map_err(|(primitive, times)| Fault::Triangles { primitive, times })?;
-    shape.cost = cost(contents, &order);
+    shape.cost = cost(contents, &order, &below);
     Ok(shape)
 }
 
@@ -216,6 +223,20 @@ const EMPTY: Box3 = [[f32::INFINITY; 3], [f32::NEG_INFINITY; 3]];
 /// Replaces subnormal numbers by zero, since devices may do so.
 fn without_subnormals(bounds: Box3) -> Box3 {
     bounds.map(|corner| corner.map(|x| if x.is_subnormal() { 0.0 } else { x }))
+}
+
+/// True if a stored box contains its contents, and is no more than a step larger on any side, apart from
+/// rounding. A box that has no steps is equal.
+fn fits(stored: Box3, contents: Box3, steps: [f32; 3]) -> bool {
+    (0..3).all(|axis| {
+        let side = |bounds: Box3, corner: usize| f64::from(bounds[corner][axis]);
+        let below = side(contents, 0) - side(stored, 0);
+        let above = side(stored, 1) - side(contents, 1);
+        let step = f64::from(steps[axis]);
+        let rounding = 4.0 * f64::from(f32::EPSILON) * side(contents, 0).abs().max(side(contents, 1).abs());
+        let most = if step > 0.0 { 1.001 * step + rounding } else { 0.0 };
+        (0.0..=most).contains(&below) && (0.0..=most).contains(&above)
+    })
 }
 
 fn each_once(times: &[usize]) -> Result<(), (usize, usize)> {
@@ -228,12 +249,15 @@ pub(crate) fn area([lower, upper]: Box3) -> f64 {
     side(0) * side(1) + side(1) * side(2) + side(2) * side(0)
 }
 
-fn cost(contents: &Contents, order: &[u32]) -> f64 {
+/// Returns the cost of a tree; `below` are the boxes below each link.
+fn cost(contents: &Contents, order: &[u32], below: &[Box3]) -> f64 {
     let Some(&root) = order.first() else { return contents.records.len() as f64 };
-    let whole = area(contents.children(root).into_iter().fold(EMPTY, |all, (.., bounds)| union(all, bounds)));
+    let of_root = contents.children(root).into_iter().map(|(link, ..)| below[link as usize]);
+    let whole = area(of_root.fold(EMPTY, union));
     let mut sum = whole;
     for &node in order {
-        for (_, reference, bounds) in contents.children(node) {
+        for (link, reference, _) in contents.children(node) {
+            let bounds = below[link as usize];
             let units = match reference & BVH_LEAF {
                 0 => 1.0,
                 _ => f64::from(triangles_of(reference)),

@@ -61,8 +61,8 @@ fn used_bindings_of(words: &[u32], is_wanted: impl Fn(u32) -> bool) -> Result<Ve
             (op::VARIABLE, [_, _, variable, class, ..]) if !in_function && !is_wanted(*class) => {
                 places.remove(variable);
             }
-            // Decorations precede variables, and those functions. A literal that happens to equal an id only adds a binding to the
-            // result.
+            // Decorations precede variables, and those functions. A literal that happens to equal an id only
+            // adds a binding to the result.
             _ if in_function => {
                 for word in &instruction[1..] {
                     let Some([Some(set), Some(binding)]) = places.get(word) else { continue };

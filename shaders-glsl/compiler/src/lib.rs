@@ -256,8 +256,8 @@ fn choices(line: &str) -> Result<Vec<String>, String> {
     Ok(lines)
 }
 
-/// Returns the folder of a module if its entry is in another one: the structure that a shared entry is compiled
-/// for.
+/// Returns the folder of a module if its entry is in another one: the structure that a shared entry is
+/// compiled for.
 fn structure_of<'a>(name: &'a str, entry: &str) -> Option<&'a str> {
     let (folder, _) = name.split_once('/')?;
     (entry.split('/').next() != Some(folder)).then_some(folder)

@@ -276,10 +276,13 @@ fn damaged_trees_of_four_children_per_node_are_noticed() {
         damage(&mut contents);
         well_formed(&contents).expect_err("the damage is noticed")
     };
-    let fault = damaged(|c| c.nodes_of_four[1].lower_z[2] = c.nodes_of_four[1].lower_z[2].next_up());
+    // A lower side one step farther, an upper side one step nearer, and steps that are too large.
+    let fault = damaged(|c| c.nodes_of_four[1].z[0] += 1 << 16);
     assert!(matches!(fault, Fault::Bounds { link: 6, .. }), "{fault}");
-    let fault = damaged(|c| c.nodes_of_four[0].upper_x[3] += 1.0);
+    let fault = damaged(|c| c.nodes_of_four[0].x[1] -= 1 << 24);
     assert!(matches!(fault, Fault::Bounds { link: 3, .. }), "{fault}");
+    let fault = damaged(|c| c.nodes_of_four[0].steps += 1);
+    assert!(matches!(fault, Fault::Bounds { .. }), "{fault}");
     let fault = damaged(|c| c.nodes_of_four[2].parent ^= 1);
     assert!(matches!(fault, Fault::Parent { node: 2, .. }), "{fault}");
     let fault = damaged(|c| c.nodes_of_four[0].children[2] = c.nodes_of_four.len() as u32);
