@@ -86,6 +86,10 @@ bool trace_slot(uint invocation, out uint slot) {
         }
     } else if (invocation < queue_header.listed) {
         slot = queue_list[queue_paused_at(queue_header.round - 1u, queue_header.capacity) + invocation];
+        if (slot >= queue_header.capacity) {
+            atomicAdd(queue_header.corrupted, 1u);
+            return false;
+        }
     } else {
         return false;
     }

@@ -12,8 +12,8 @@ use std::fmt::Write as _;
 use crate::comments::{documentation, sentence};
 
 /// Records for which zeros are a wrong value rather than an empty one. They have no `Default`.
-pub(crate) const ZEROS_MISLEAD: [&str; 6] =
-    ["Ray", "Hit", "TraceState", "BvhNode", "PathWaiting", "WhittedRay"];
+pub(crate) const ZEROS_MISLEAD: [&str; 7] =
+    ["Ray", "Hit", "TraceState", "BvhNode", "BvhNodeOfFour", "PathWaiting", "WhittedRay"];
 
 /// Size of a scalar, bytes.
 const WORD: usize = 4;

@@ -45,8 +45,8 @@ struct BvhChildren {
 
 // Reads the children of a node as whole vectors. A node of two children has none in the last two places. An
 // index past the end is counted and gives a node without children.
-BvhChildren bvh_children(BvhRef s, uint node, bvec3 descends, inout uint corrupted) {
-    if (node >= BVH_HEADER(s).node_capacity) {
+BvhChildren bvh_children(BvhRef s, uint node, uint node_capacity, bvec3 descends, inout uint corrupted) {
+    if (node >= node_capacity) {
         corrupted += 1u;
         const vec4 far = vec4(3.0e38);
         return BvhChildren(far, far, far, far, far, far, uvec4(BVH_NONE));
@@ -56,15 +56,15 @@ BvhChildren bvh_children(BvhRef s, uint node, bvec3 descends, inout uint corrupt
         uvec4 sides_xy = BVH_NODE_VECTORS(s)[4u * node + 1u];
         uvec4 sides_z = BVH_NODE_VECTORS(s)[4u * node + 2u];
         vec3 origin = uintBitsToFloat(place.xyz);
-        vec3 sizes = steps_sizes(place.w);
+        vec3 sizes = bvh_steps_sizes(place.w);
         uvec3 lower = uvec3(sides_xy.xz, sides_z.x);
         uvec3 upper = uvec3(sides_xy.yw, sides_z.y);
         uvec3 first = mix(lower, upper, descends);
         uvec3 last = mix(upper, lower, descends);
         return BvhChildren(
-            steps_sides(first.x, origin.x, sizes.x), steps_sides(last.x, origin.x, sizes.x),
-            steps_sides(first.y, origin.y, sizes.y), steps_sides(last.y, origin.y, sizes.y),
-            steps_sides(first.z, origin.z, sizes.z), steps_sides(last.z, origin.z, sizes.z),
+            bvh_steps_sides(first.x, origin.x, sizes.x), bvh_steps_sides(last.x, origin.x, sizes.x),
+            bvh_steps_sides(first.y, origin.y, sizes.y), bvh_steps_sides(last.y, origin.y, sizes.y),
+            bvh_steps_sides(first.z, origin.z, sizes.z), bvh_steps_sides(last.z, origin.z, sizes.z),
             BVH_NODE_VECTORS(s)[4u * node + 3u]);
     }
     uvec4 lower_0 = BVH_NODE_VECTORS(s)[4u * node];
@@ -113,8 +113,8 @@ uint bvh_leaf_count(uint reference) {
 }
 
 // Reads a triangle as whole vectors. An index past the end is counted and gives a triangle without area.
-BvhRecord bvh_record(BvhRef s, uint record, inout uint corrupted) {
-    if (record >= BVH_HEADER(s).record_capacity) {
+BvhRecord bvh_record(BvhRef s, uint record, uint record_capacity, inout uint corrupted) {
+    if (record >= record_capacity) {
         corrupted += 1u;
         return BvhRecord(vec3(0.0), vec3(0.0), vec3(0.0), PRIMITIVE_NONE);
     }
@@ -203,16 +203,16 @@ void bvh_set_children_of_four(BvhRef s, uint node, uvec4 children, mat3x4 lower,
     uint steps = 0u;
     uvec2 sides[3];
     [[unroll]] for (uint axis = 0u; axis < 3u; axis++) {
-        vec4 low = steps_lower(lower[axis]);
-        vec4 high = steps_upper(upper[axis]);
+        vec4 low = bvh_steps_lower(lower[axis]);
+        vec4 high = bvh_steps_upper(upper[axis]);
         origin[axis] = min(min(low.x, low.y), min(low.z, low.w));
-        uint exponent = steps_exponent(origin[axis], max(max(high.x, high.y), max(high.z, high.w)));
+        uint exponent = bvh_steps_exponent(origin[axis], max(max(high.x, high.y), max(high.z, high.w)));
         float size = uintBitsToFloat(exponent << 23u);
         steps |= exponent << 8u * axis;
         sides[axis] = uvec2(0u);
         [[unroll]] for (uint place = 0u; place < BVH_FOUR; place++) {
-            sides[axis].x |= steps_below(low[place], origin[axis], size) << 8u * place;
-            sides[axis].y |= steps_above(high[place], origin[axis], size) << 8u * place;
+            sides[axis].x |= bvh_steps_below(low[place], origin[axis], size) << 8u * place;
+            sides[axis].y |= bvh_steps_above(high[place], origin[axis], size) << 8u * place;
         }
     }
     BVH_NODES_OF_FOUR(s)[node].origin = origin;

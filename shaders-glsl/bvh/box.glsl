@@ -54,8 +54,7 @@ uvec4 bvh_keys(BvhRay ray, BvhChildren node, float farthest, out bvec4 entered) 
     precise vec4 last_z = (node.last_z - ray.origin_last.z) * ray.inverse.z;
     vec4 entry = max(max(first_x, first_y), max(first_z, vec4(ray.t_min)));
     vec4 leave = min(min(last_x, last_y), min(last_z, vec4(farthest)));
-    // Every node has two children.
-    bvec4 is_child = bvec4(true, true, notEqual(node.references.zw, uvec2(BVH_NONE)));
+    bvec4 is_child = notEqual(node.references, uvec4(BVH_NONE));
     entered = mix(bvec4(false), not(greaterThan(entry, leave)), is_child);
     // A zero may have a sign.
     return (floatBitsToUint(entry) & 0x7FFFFFFCu) | uvec4(0u, 1u, 2u, 3u);

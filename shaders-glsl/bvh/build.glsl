@@ -23,7 +23,7 @@ void bvh_triangle_box(uint primitive, out vec3 lower, out vec3 upper) {
 // Widens a box by a triangle.
 void bvh_include_record(uint place, inout vec3 lower, inout vec3 upper) {
     uint corrupted = 0u;
-    BvhRecord record = bvh_record(build.structure, place, corrupted);
+    BvhRecord record = bvh_record(build.structure, place, BVH_HEADER(build.structure).record_capacity, corrupted);
     bvh_count_corrupted(build.structure, corrupted);
     lower = min(lower, min(record.a, min(record.b, record.c)));
     upper = max(upper, max(record.a, max(record.b, record.c)));

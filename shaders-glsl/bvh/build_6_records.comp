@@ -15,7 +15,7 @@ void main() {
     BvhRecord record;
     if (stride == 0u) {
         uint corrupted = 0u;
-        record = bvh_record(build.structure, place, corrupted);
+        record = bvh_record(build.structure, place, BVH_HEADER(build.structure).record_capacity, corrupted);
         bvh_count_corrupted(build.structure, corrupted);
     } else {
         record.primitive = bvh_scratch(build.structure, BVH_HEADER(build.structure).order_offset + place * stride);

@@ -1,8 +1,7 @@
 // Places of the parts of the scratch pool, in words. That of a build on the host: boxes (6 per triangle), then
 // the order of the leaves. That of a build on the device: keys (code and primitive) twice, counts by digit and
-// chunk, the sums of their scan, then the unions of boxes (unions.glsl) or the clusters (clusters.glsl); these, treelets.glsl and
-// fours.glsl say what takes the place
-// of keys and counts.
+// chunk, the sums of their scan, then the unions of boxes (unions.glsl) or the clusters (clusters.glsl). These two,
+// treelets.glsl and fours.glsl say which parts later passes use again.
 // Reads: header. Writes: nothing.
 #ifndef BVH_SCRATCH_GLSL
 #define BVH_SCRATCH_GLSL

@@ -1,5 +1,5 @@
 // Boxes in steps within the union of a node's children: a side is origin + number * step, as single precision
-// computes it. The product is exact, so that fused arithmetic gives the same sides.
+// computes it. The product is exact or overflows, so that fused arithmetic gives the same sides or larger boxes.
 // Reads, writes: nothing.
 // Source: Ylitie, Karras, Laine 2017 (compressed nodes), here with four children and links to parents.
 #ifndef BVH_STEPS_GLSL
@@ -8,54 +8,59 @@
 #include "bvh/constants.glsl"
 
 // Largest finite number.
-#define STEPS_FARTHEST uintBitsToFloat(0x7F7FFFFFu)
+#define BVH_FARTHEST uintBitsToFloat(0x7F7FFFFFu)
 
 // Returns the sizes of a step along the axes: powers of two.
-vec3 steps_sizes(uint steps) {
+vec3 bvh_steps_sizes(uint steps) {
     return uintBitsToFloat((uvec3(steps, steps >> 8u, steps >> 16u) & 0xFFu) << 23u);
 }
 
 // Returns the sides of four boxes along an axis.
-vec4 steps_sides(uint numbers, float origin, float size) {
+vec4 bvh_steps_sides(uint numbers, float origin, float size) {
     uvec4 bytes = uvec4(numbers, numbers >> 8u, numbers >> 16u, numbers >> 24u) & 0xFFu;
     precise vec4 sides = origin + vec4(bytes) * size;
     return sides;
 }
 
-// Returns lower sides as finite numbers: NaN becomes the smallest.
-vec4 steps_lower(vec4 sides) {
-    return mix(vec4(-STEPS_FARTHEST), min(sides, STEPS_FARTHEST), greaterThanEqual(sides, vec4(-STEPS_FARTHEST)));
+// True for numbers that are finite. Decided on bits: comparisons with NaN are not dependable.
+bvec4 bvh_are_finite(vec4 sides) {
+    return lessThan(floatBitsToUint(sides) & 0x7FFFFFFFu, uvec4(0x7F800000u));
 }
 
-// Returns upper sides as finite numbers: NaN becomes the largest.
-vec4 steps_upper(vec4 sides) {
-    return mix(vec4(STEPS_FARTHEST), max(sides, -STEPS_FARTHEST), lessThanEqual(sides, vec4(STEPS_FARTHEST)));
+// Returns lower sides as finite numbers, the smallest in place of others.
+vec4 bvh_steps_lower(vec4 sides) {
+    return mix(vec4(-BVH_FARTHEST), sides, bvh_are_finite(sides));
+}
+
+// Returns upper sides as finite numbers, the largest in place of others.
+vec4 bvh_steps_upper(vec4 sides) {
+    return mix(vec4(BVH_FARTHEST), sides, bvh_are_finite(sides));
 }
 
 // Returns the side with that number of steps.
-float steps_side(float number, float origin, float size) {
+float bvh_steps_side(float number, float origin, float size) {
     precise float side = origin + number * size;
     return side;
 }
 
 // Returns the exponent of the smallest step of which BVH_STEPS lead from one side to another, or beyond.
-uint steps_exponent(float origin, float end) {
+uint bvh_steps_exponent(float origin, float end) {
     uint bits = floatBitsToUint((end - origin) / float(BVH_STEPS));
     uint exponent = clamp((bits + 0x7FFFFFu) >> 23u, 1u, 254u);
-    bool reaches = steps_side(float(BVH_STEPS), origin, uintBitsToFloat(exponent << 23u)) >= end;
+    bool reaches = bvh_steps_side(float(BVH_STEPS), origin, uintBitsToFloat(exponent << 23u)) >= end;
     return reaches ? exponent : min(exponent + 1u, 254u);
 }
 
 // Returns the largest number of steps that does not lead beyond a side.
-uint steps_below(float side, float origin, float size) {
+uint bvh_steps_below(float side, float origin, float size) {
     float number = clamp(floor((side - origin) / size), 0.0, float(BVH_STEPS));
-    return uint(steps_side(number, origin, size) > side ? max(number - 1.0, 0.0) : number);
+    return uint(bvh_steps_side(number, origin, size) > side ? max(number - 1.0, 0.0) : number);
 }
 
 // Returns the smallest number of steps that leads to a side, or beyond.
-uint steps_above(float side, float origin, float size) {
+uint bvh_steps_above(float side, float origin, float size) {
     float number = clamp(ceil((side - origin) / size), 0.0, float(BVH_STEPS));
-    return uint(steps_side(number, origin, size) < side ? min(number + 1.0, float(BVH_STEPS)) : number);
+    return uint(bvh_steps_side(number, origin, size) < side ? min(number + 1.0, float(BVH_STEPS)) : number);
 }
 
 #endif

@@ -83,6 +83,9 @@ uint bvh_trace(BvhRef s, Ray ray, inout TraceState state, bool any_hit) {
     uint stack_children[BVH_STACK];
     float stack_entries[BVH_STACK];
     uint stack_size = 0u;
+    // Read once: drivers load a word of a buffer again in every turn of a loop.
+    uint node_capacity = BVH_HEADER(s).node_capacity;
+    uint record_capacity = BVH_HEADER(s).record_capacity;
     uint nodes = 0u;
     uint tests = 0u;
     uint corrupted = 0u;
@@ -90,7 +93,7 @@ uint bvh_trace(BvhRef s, Ray ray, inout TraceState state, bool any_hit) {
     bool done = false;
     while (!done) {
         while (!done && (child & BVH_LEAF) == 0u && nodes + tests < work_budget) {
-            BvhChildren node = bvh_children(s, child, slabs.descends, corrupted);
+            BvhChildren node = bvh_children(s, child, node_capacity, slabs.descends, corrupted);
             nodes += 1u;
             bvec4 entered;
             uvec4 keys = bvh_keys(slabs, node, best.t, entered);
@@ -137,7 +140,7 @@ uint bvh_trace(BvhRef s, Ray ray, inout TraceState state, bool any_hit) {
         uint first = bvh_leaf_first(child);
         uint count = bvh_leaf_count(child);
         for (uint record = first; record < first + count; record++) {
-            BvhRecord triangle = bvh_record(s, record, corrupted);
+            BvhRecord triangle = bvh_record(s, record, record_capacity, corrupted);
             test_corners(ray, triangle.primitive, triangle.a, triangle.b, triangle.c, -BVH_INFINITY, BVH_INFINITY, best);
         }
         tests += count;

@@ -40,8 +40,8 @@ pub struct Passes {
 /// Demand of a build: the number of elements that it needs in each pool.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Demand {
-    /// Number of inner nodes of the tree and, for nodes of four, of elements that take the room of the nodes
-    /// of two from which they are made.
+    /// Number of inner nodes of the tree and, for nodes of four that the device makes, of the nodes of two
+    /// that they are made of.
     pub nodes: u64,
     /// Number of triangles in leaves.
     pub records: u64,

@@ -149,7 +149,7 @@ pub enum Fault {
 
 /// Checks that every triangle has one record and every record one leaf, that nodes store the link by which
 /// they are reached, and that every box is the union of the boxes below it, in nodes of four up to a step.
-/// Subnormal coordinates count as zero.
+/// Subnormal coordinates count as zero. Triangles with a corner that is not finite may have any box.
 ///
 /// # Errors
 /// The first fault found.
@@ -162,6 +162,8 @@ pub fn well_formed(contents: &Contents) -> Result<Shape, Fault> {
     let mut order = Vec::new();
     // Boxes below each link.
     let mut below: Vec<Box3> = vec![EMPTY; contents.node_count() * slots as usize];
+    // Links to boxes that triangles without finite corners may have widened.
+    let mut is_loose = vec![false; below.len()];
     let mut pending = Vec::new();
     if contents.header.root != BVH_NONE {
         pending.push((contents.header.root, BVH_NONE, 0));
@@ -177,8 +179,12 @@ pub fn well_formed(contents: &Contents) -> Result<Shape, Fault> {
             shape.leaves += 1;
             in_leaves[first..first + count].iter_mut().for_each(|times| *times += 1);
             if link != BVH_NONE {
-                let corners = records.iter().flat_map(Record::corners);
+                // No ray hits a triangle with a corner that is not finite: its box may be any.
+                let is_finite =
+                    |record: &&Record| record.corners().as_flattened().iter().all(|x| x.is_finite());
+                let corners = records.iter().filter(is_finite).flat_map(Record::corners);
                 below[link as usize] = corners.fold(EMPTY, |all, p| union(all, [p, p]));
+                is_loose[link as usize] = !records.iter().all(|record| is_finite(&record));
             }
             continue;
         }
@@ -191,13 +197,16 @@ pub fn well_formed(contents: &Contents) -> Result<Shape, Fault> {
         pending.extend(children.into_iter().rev().map(|(link, child, _)| (child, link, levels + 1)));
     }
     for &node in order.iter().rev() {
-        let whole = contents.children(node).iter().map(|(link, ..)| below[*link as usize]).fold(EMPTY, union);
+        let links = contents.children(node).into_iter().map(|(link, ..)| link as usize);
         if let Some(parent) = contents.parent(node).filter(|parent| *parent != BVH_NONE) {
-            below[parent as usize] = whole;
+            below[parent as usize] = links.clone().map(|link| below[link]).fold(EMPTY, union);
+            is_loose[parent as usize] = links.clone().any(|link| is_loose[link]);
         }
     }
     for &node in &order {
-        let steps = contents.steps(node);
+        // A box that is not finite widens the steps of all boxes of its node.
+        let is_any = contents.children(node).iter().any(|(link, ..)| is_loose[*link as usize]);
+        let steps = if is_any { [f32::INFINITY; 3] } else { contents.steps(node) };
         for (link, _, stored) in contents.children(node) {
             let contents = below[link as usize];
             if !fits(without_subnormals(stored), without_subnormals(contents), steps) {
@@ -230,8 +239,10 @@ fn without_subnormals(bounds: Box3) -> Box3 {
 fn fits(stored: Box3, contents: Box3, steps: [f32; 3]) -> bool {
     (0..3).all(|axis| {
         let side = |bounds: Box3, corner: usize| f64::from(bounds[corner][axis]);
-        let below = side(contents, 0) - side(stored, 0);
-        let above = side(stored, 1) - side(contents, 1);
+        // A union of no finite triangles is infinite.
+        let from = |inner: f64, outer: f64| if inner == outer { 0.0 } else { inner - outer };
+        let below = from(side(contents, 0), side(stored, 0));
+        let above = from(side(stored, 1), side(contents, 1));
         let step = f64::from(steps[axis]);
         let rounding = 4.0 * f64::from(f32::EPSILON) * side(contents, 0).abs().max(side(contents, 1).abs());
         let most = if step > 0.0 { 1.001 * step + rounding } else { 0.0 };

@@ -255,11 +255,11 @@ impl Device {
                 used[set] |= mask;
             }
         }
-        let asked = used.iter().map(|mask: &Mask| u64::from(mask.count_ones())).sum();
+        let in_use = used.iter().map(|mask: &Mask| u64::from(mask.count_ones())).sum();
         let limit = self.core.limits.max_storage_buffers_per_stage.into();
-        if asked > limit {
+        if in_use > limit {
             let what = "the number of storage buffers that its shader uses";
-            return Err(GpuError::LimitExceeded { name: name.to_owned(), what, asked, limit });
+            return Err(GpuError::LimitExceeded { name: name.to_owned(), what, asked: in_use, limit });
         }
         Ok(used.into())
     }

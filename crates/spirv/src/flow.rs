@@ -5,9 +5,9 @@ use std::collections::{HashMap, HashSet};
 use crate::fold::folded;
 use crate::instruction::{op, operation, result};
 
-/// Opcodes of instructions that end a block: OpBranch to OpUnreachable, OpTerminateInvocation,
-/// OpIgnoreIntersectionKHR, OpTerminateRayKHR, OpEmitMeshTasksEXT.
-const TERMINATORS: [u32; 11] = [249, 250, 251, 252, 253, 254, 255, 4416, 4448, 4449, 5294];
+/// Opcodes of the instructions of understood modules that end a block: OpBranch to OpUnreachable,
+/// OpTerminateInvocation.
+const TERMINATORS: [u32; 8] = [249, 250, 251, 252, 253, 254, 255, 4416];
 
 /// A function of a module.
 pub(crate) struct Function<'a> {

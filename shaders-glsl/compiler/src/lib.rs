@@ -290,9 +290,12 @@ pub fn read_permutations(text: &str) -> Result<Vec<Permutation>, String> {
             let (name, rest) = line.split_once('=').unwrap_or_default();
             let mut words = rest.split_whitespace();
             let entry = words.next().ok_or_else(|| format!("line {}: no entry file", number + 1))?;
-            let own = words.map(|word| word.split_once('=').unwrap_or((word, "")));
-            let defines = structure_of(name.trim(), entry)
-                .map(|structure| ("STRUCTURE", structure))
+            let own: Vec<_> = words.map(|word| word.split_once('=').unwrap_or((word, ""))).collect();
+            let implied = structure_of(name.trim(), entry).map(|structure| ("STRUCTURE", structure));
+            if implied.is_some() && own.iter().any(|(name, _)| *name == "STRUCTURE") {
+                return Err(format!("line {}: the folder of the module says its STRUCTURE", number + 1));
+            }
+            let defines = implied
                 .into_iter()
                 .chain(own)
                 .map(|(macro_name, value)| (macro_name.to_owned(), value.to_owned()))
@@ -371,6 +374,8 @@ mod tests {
         assert_eq!(pair.features, ["t", "q", "s"]);
         let error = read_permutations("[t+A+B]\nt.A.B = t.comp A<B=p,q\n").expect_err("it names the pair");
         assert!(error.contains("line 2") && error.contains("A<B"), "{error}");
+        let error = read_permutations("[a]\np/x = all/x.comp STRUCTURE=q\n").expect_err("two structures");
+        assert!(error.contains("line 2") && error.contains("STRUCTURE"), "{error}");
         assert!(read_permutations("[a] .else\n").is_err());
         assert!(read_permutations("[a]\nx x.comp\n").is_err());
     }

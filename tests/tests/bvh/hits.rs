@@ -1,7 +1,7 @@
 //! Hits of the BVH are those of brute force, bit for bit, whatever its options and however often rays pause.
 
 use rasray_ads::{BruteForce, Counters, Geometry, Hit, Ray, Structure, TraceMode};
-use rasray_bvh::{Addressing, Builder, Bvh, Children, Config};
+use rasray_bvh::{Addressing, Builder, Bvh, Children, Config, well_formed};
 use rasray_gpu::Timing;
 use rasray_tests::conformance::trace_in_rounds;
 use rasray_tests::harness::{Bench, bits};
@@ -92,6 +92,33 @@ fn same(expected: &Answers, found: &Answers, rays: &[Ray], what: &str) {
     }
     for (ray, (expected, found)) in expected.occluded.iter().zip(&found.occluded).enumerate() {
         assert_eq!(expected, found, "{what}: occlusion of ray {ray}, {:?}", rays[ray]);
+    }
+}
+
+/// Such triangles are not hit, and hide no others of their nodes.
+#[test]
+fn triangles_with_corners_that_are_no_numbers_hide_nothing() {
+    let bench = Bench::new();
+    let sound = layers_and_sphere(8);
+    let mut triangles = sound.clone();
+    for (index, triangle) in triangles.iter_mut().enumerate().filter(|(index, _)| index % 5 == 0) {
+        triangle[index % 3][index / 5 % 3] = f32::NAN;
+        if index % 4 == 0 {
+            *triangle = [[f32::NAN; 3]; 3];
+        }
+    }
+    let (geometry, rays) = (bench.geometry(&triangles), rays(&sound));
+    let expected = reference_answers(&bench, &geometry, &rays);
+    let hits = expected.occluded.iter().filter(|occluded| **occluded).count();
+    assert!((RAYS / 10..RAYS).contains(&hits), "{hits}");
+    for (builder, children) in KINDS {
+        let config = Config { children: Some(children), ..Config::new(builder) };
+        let mut bvh = Bvh::new(bench.device(), config, &geometry, None).expect("the options are valid");
+        let rounds = bvh.rounds();
+        let what = format!("{builder:?}, {children:?} children");
+        same(&expected, &traced(&bench, &mut bvh, &rays, rounds), &rays, &what);
+        let contents = bvh.download(bench.device()).expect("the tree can be downloaded");
+        well_formed(&contents).unwrap_or_else(|fault| panic!("{what}: {fault}"));
     }
 }
 

@@ -27,9 +27,11 @@ mod tests {
         let group = u64::from(BUILD_GROUP_SIZE);
         assert_eq!([0, 1, group, group + 1].map(workgroups), [0, 1, 1, 2]);
         assert_eq!(folded(0), None);
-        for groups in [1, MOST_GROUPS, MOST_GROUPS + 1, 3 * MOST_GROUPS - 1, u64::from(u32::MAX)] {
+        for groups in
+            [1, MOST_GROUPS, MOST_GROUPS + 1, 3 * MOST_GROUPS - 1, u64::from(u32::MAX).div_ceil(group)]
+        {
             let [columns, rows, layers] = folded(groups).expect("there are workgroups").map(u64::from);
-            assert!(columns <= MOST_GROUPS && rows <= 1 << 17 && layers == 1, "{groups}");
+            assert!(columns <= MOST_GROUPS && rows <= 65_535 && layers == 1, "{groups}");
             assert!((groups..groups + rows).contains(&(columns * rows)), "{groups}");
         }
     }

@@ -171,8 +171,8 @@ impl BuildTarget<'_> {
         recorder.end_pass();
     }
 
-    /// Records a labelled pass of one dispatch whose results are visible to compute and fragment shaders
-    /// after it.
+    /// Records a labelled pass of one dispatch of that many workgroups, whose results are visible to
+    /// `readers` after it.
     pub fn compute_pass(
         &self,
         recorder: &mut Recorder<'_>,
