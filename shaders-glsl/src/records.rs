@@ -219,7 +219,7 @@ mod tests {
             for axis in 0..3 {
                 let exact = [exact[0][axis], exact[1][axis]];
                 assert!(
-                    !(lower[axis] > exact[0]) && !(upper[axis] < exact[1]),
+                    lower[axis] <= exact[0] && upper[axis] >= exact[1],
                     "{slot}, {axis}: {lower:?} {upper:?} {exact:?}"
                 );
                 let far = [
@@ -285,8 +285,10 @@ mod tests {
                 assert!(lower.iter().chain(&upper).all(|side| !side.is_nan()), "{odd:?}");
                 let exact = if reference == 2 { odd } else { small };
                 let exact = exact.map(|corner| corner.map(|side| side.clamp(f32::MIN, f32::MAX)));
-                let is_within =
-                    (0..3).all(|axis| !(lower[axis] > exact[0][axis]) && !(upper[axis] < exact[1][axis]));
+                let is_within = (0..3).all(|axis| {
+                    let contains = |side: f32| side.is_nan() || (lower[axis]..=upper[axis]).contains(&side);
+                    contains(exact[0][axis]) && contains(exact[1][axis])
+                });
                 assert!(is_within, "{odd:?}: {lower:?} {upper:?}");
             }
         }
