@@ -44,7 +44,7 @@ struct BvhChildren {
 };
 
 // Reads the children of a node as whole vectors. A node of two children has none in the last two places. An
-// index past the end is counted and gives a node without children.
+// index past the end is counted and gives boxes that are far away.
 BvhChildren bvh_children(BvhRef s, uint node, uint node_capacity, bvec3 descends, inout uint corrupted) {
     if (node >= node_capacity) {
         corrupted += 1u;

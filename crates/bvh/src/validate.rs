@@ -205,8 +205,8 @@ pub fn well_formed(contents: &Contents) -> Result<Shape, Fault> {
     }
     for &node in &order {
         // A box that is not finite widens the steps of all boxes of its node.
-        let is_any = contents.children(node).iter().any(|(link, ..)| is_loose[*link as usize]);
-        let steps = if is_any { [f32::INFINITY; 3] } else { contents.steps(node) };
+        let widens = contents.children(node).iter().any(|(link, ..)| is_loose[*link as usize]);
+        let steps = if widens { [f32::INFINITY; 3] } else { contents.steps(node) };
         for (link, _, stored) in contents.children(node) {
             let contents = below[link as usize];
             if !fits(without_subnormals(stored), without_subnormals(contents), steps) {

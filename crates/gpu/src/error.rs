@@ -65,8 +65,7 @@ pub enum GpuError {
     /// A buffer exceeds the maximum size of a storage buffer binding. Pools of structures can be reached by
     /// device address instead (`addressing` of their configurations); other buffers cannot.
     #[error(
-        "buffer `{name}` has {size} bytes, but a storage buffer binding ends at {limit} bytes on this device: reach \
-         pools of structures by device address, divide other buffers"
+        "buffer `{name}` has {size} bytes, but a storage buffer binding ends at {limit} bytes on this device"
     )]
     TooLarge {
         /// Name of the buffer.
