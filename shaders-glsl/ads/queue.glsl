@@ -42,7 +42,8 @@ struct QueueHeader {
     uint takes;           // times they were taken; its parity says which list holds them
     uint selected_before; // slots selected when they were taken the time before; their list stays until the next selection
     uint corrupted;       // list entries with an invalid index, in the structure last traced, since it was built
-    uint corrupted_before; // the same in the parts before it, where that was one of several
+    // the same in the parts before it, where that was one of several, and invalid slots in the lists of paused rays
+    uint corrupted_before;
 };
 
 // One step of a logged traversal; contract/constants.glsl says what a STEP_* kind means by its words. Shared, 28 bytes.

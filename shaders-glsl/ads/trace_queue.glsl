@@ -87,7 +87,8 @@ bool trace_slot(uint invocation, out uint slot) {
     } else if (invocation < queue_header.listed) {
         slot = queue_list[queue_paused_at(queue_header.round - 1u, queue_header.capacity) + invocation];
         if (slot >= queue_header.capacity) {
-            atomicAdd(queue_header.corrupted, 1u);
+            // The structure's own count replaces `corrupted` after the trace.
+            atomicAdd(queue_header.corrupted_before, 1u);
             return false;
         }
     } else {

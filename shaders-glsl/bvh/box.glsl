@@ -54,7 +54,8 @@ uvec4 bvh_keys(BvhRay ray, BvhChildren node, float farthest, out bvec4 entered) 
     precise vec4 last_z = (node.last_z - ray.origin_last.z) * ray.inverse.z;
     vec4 entry = max(max(first_x, first_y), max(first_z, vec4(ray.t_min)));
     vec4 leave = min(min(last_x, last_y), min(last_z, vec4(farthest)));
-    // Every node has two children: a damaged one without is told, because its references are followed.
+    // Every node has two children: absent ones of a damaged node are followed and counted where they are entered
+    // at once.
     bvec4 is_child = bvec4(true, true, notEqual(node.references.zw, uvec2(BVH_NONE)));
     entered = mix(bvec4(false), not(greaterThan(entry, leave)), is_child);
     // A zero may have a sign.

@@ -1,5 +1,5 @@
 // Boxes in steps within the union of a node's children: a side is origin + number * step, as single precision
-// computes it. The product is exact or overflows, so that fused arithmetic gives the same sides or larger boxes.
+// computes it. Steps are powers of two, so that products are exact unless they overflow.
 // Reads, writes: nothing.
 // Source: Ylitie, Karras, Laine 2017 (compressed nodes), here with four children and links to parents.
 #ifndef BVH_STEPS_GLSL
@@ -51,16 +51,18 @@ uint bvh_steps_exponent(float origin, float end) {
     return reaches ? exponent : min(exponent + 1u, 254u);
 }
 
-// Returns the largest number of steps that does not lead beyond a side.
+// Returns the largest number of steps that does not lead beyond a side; 0 where the distance overflows.
 uint bvh_steps_below(float side, float origin, float size) {
     float number = clamp(floor((side - origin) / size), 0.0, float(BVH_STEPS));
-    return uint(bvh_steps_side(number, origin, size) > side ? max(number - 1.0, 0.0) : number);
+    number = bvh_steps_side(number, origin, size) > side ? max(number - 1.0, 0.0) : number;
+    return bvh_steps_side(number, origin, size) > side ? 0u : uint(number);
 }
 
 // Returns the smallest number of steps that leads to a side, or beyond.
 uint bvh_steps_above(float side, float origin, float size) {
     float number = clamp(ceil((side - origin) / size), 0.0, float(BVH_STEPS));
-    return uint(bvh_steps_side(number, origin, size) < side ? min(number + 1.0, float(BVH_STEPS)) : number);
+    number = bvh_steps_side(number, origin, size) < side ? min(number + 1.0, float(BVH_STEPS)) : number;
+    return bvh_steps_side(number, origin, size) < side ? BVH_STEPS : uint(number);
 }
 
 #endif

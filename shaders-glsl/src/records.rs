@@ -133,17 +133,19 @@ fn step_exponent(origin: f32, end: f32) -> u32 {
     if reaches { exponent } else { (exponent + 1).min(254) }
 }
 
-/// Returns the largest number of steps that does not lead beyond a side.
+/// Returns the largest number of steps that does not lead beyond a side; 0 where the distance overflows.
 fn steps_below(side: f32, origin: f32, size: f32) -> u8 {
     // A number beyond the range of the type becomes its nearest.
     let number = ((side - origin) / size).floor() as u8;
-    if side_of(number, origin, size) > side { number.saturating_sub(1) } else { number }
+    let number = if side_of(number, origin, size) > side { number.saturating_sub(1) } else { number };
+    if side_of(number, origin, size) > side { 0 } else { number }
 }
 
 /// Returns the smallest number of steps that leads to a side, or beyond.
 fn steps_above(side: f32, origin: f32, size: f32) -> u8 {
     let number = ((side - origin) / size).ceil() as u8;
-    if side_of(number, origin, size) < side { number.saturating_add(1) } else { number }
+    let number = if side_of(number, origin, size) < side { number.saturating_add(1) } else { number };
+    if side_of(number, origin, size) < side { u8::MAX } else { number }
 }
 
 impl BvhRecord {
@@ -227,6 +229,11 @@ mod tests {
                     f64::from(upper[axis]) - f64::from(exact[1]),
                 ];
                 let step = f64::from(node.step_sizes()[axis]);
+                let end = boxes.iter().fold(f32::NEG_INFINITY, |end, bounds| end.max(bounds[1][axis]));
+                let half = side_of(u8::MAX, node.origin[axis], 0.5 * node.step_sizes()[axis]);
+                // A step is the smallest that leads to the end, up to rounding of the end.
+                let is_least = half <= end.next_up() || node.step_sizes()[axis] == f32::MIN_POSITIVE;
+                assert!(is_least, "{axis}: {node:?} {boxes:?}");
                 let unit = f64::from(f32::EPSILON) * f64::from(exact[0].abs().max(exact[1].abs()));
                 most = far.into_iter().fold(most, |most, far| most.max((far - unit) / step));
             }
@@ -263,11 +270,12 @@ mod tests {
     #[test]
     fn boxes_without_extent_are_stored_exactly() {
         for place in [0.0, -0.0, 0.1, -7.5e8, 1.0e-40, f32::MIN_POSITIVE, f32::MAX, f32::MIN] {
-            assert_eq!(steps_beyond([[[place; 3]; 2]; 4]), 0.0, "{place}");
+            let node = BvhNodeOfFour::new(0, &[(1, [[place; 3]; 2]); 4]);
+            assert!(node.children().all(|(.., bounds)| bounds == [[place; 3]; 2]), "{place}");
         }
     }
 
-    /// The other boxes of the node then are as large as numbers allow, and no side is NaN.
+    /// The other boxes of the node are large then, and no side is NaN.
     #[test]
     fn sides_that_are_not_finite_leave_boxes_that_contain_all() {
         let small = [[0.25; 3], [0.5; 3]];
@@ -279,11 +287,13 @@ mod tests {
             [[-infinite; 3]; 2],
             [[f32::MIN; 3], [f32::MAX; 3]],
             [[nan; 3], [1.0; 3]],
+            [[-3.4e38; 3], [-3.3e38; 3]],
+            [[3.0e38; 3], [3.1e38; 3]],
         ] {
-            let node = BvhNodeOfFour::new(0, &[(1, small), (2, odd), (3, small)]);
+            let node = BvhNodeOfFour::new(0, &[(1, small), (2, odd), (3, [[3.0e38; 3]; 2]), (4, small)]);
             for (_, reference, [lower, upper]) in node.children() {
                 assert!(lower.iter().chain(&upper).all(|side| !side.is_nan()), "{odd:?}");
-                let exact = if reference == 2 { odd } else { small };
+                let exact = [small, odd, [[3.0e38; 3]; 2], small][reference as usize - 1];
                 let exact = exact.map(|corner| corner.map(|side| side.clamp(f32::MIN, f32::MAX)));
                 let is_within = (0..3).all(|axis| {
                     let contains = |side: f32| side.is_nan() || (lower[axis]..=upper[axis]).contains(&side);
