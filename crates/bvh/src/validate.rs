@@ -205,9 +205,10 @@ pub fn well_formed(contents: &Contents) -> Result<Shape, Fault> {
     }
     for &node in &order {
         // A box that is not finite widens the steps of all boxes of its node.
-        let widens = contents.children(node).iter().any(|(link, ..)| is_loose[*link as usize]);
+        let children = contents.children(node);
+        let widens = children.iter().any(|(link, ..)| is_loose[*link as usize]);
         let steps = if widens { [f32::INFINITY; 3] } else { contents.steps(node) };
-        for (link, _, stored) in contents.children(node) {
+        for (link, _, stored) in children {
             let contents = below[link as usize];
             if !fits(without_subnormals(stored), without_subnormals(contents), steps) {
                 let (stored, contents) = (format!("{stored:?}"), format!("{contents:?}"));
