@@ -1,7 +1,8 @@
-// The A-buffer's pools, reached as ads/pools.glsl says.
-// Reads, writes: header, bounds, lists, nodes, data, near-region list, scratch, conservative lists; with STRUCTURE_READ_ONLY
-// bounds are read only. Every access checks the capacity.
-// Source: MMRT table 2: what a cell and a node hold under each storage.
+// Declares the pools of an A-buffer, and reads and writes the bounds of its cells and the marks of triangles.
+// Reads, writes: header, bounds, lists, nodes, data, near-region list, scratch, conservative lists. Stages
+// that define STRUCTURE_READ_ONLY only read them.
+// Functions that write bounds take a cell below abuffer_cell_count(s).
+// Source: MMRT table 2, which lists what a cell and a node hold in each storage.
 #ifndef ABUFFER_ACCESSORS_GLSL
 #define ABUFFER_ACCESSORS_GLSL
 
@@ -17,64 +18,66 @@ POOL_WORDS(abuffer, scratch, 6)
 POOL_WORDS(abuffer, conservative, 7)
 #define ABUFFER_POOL(s, pool) POOL_WORDS_OF(abuffer, pool, ABUFFER_HEADER(s))
 
-// True if lists are divided by depth bucket, with depth bounds of each cell.
+// True if the storage divides a cell's depths into buckets with a list each. Cells then keep depth bounds.
 const bool ABUFFER_BUCKETED = ABUFFER_STORAGE == ABUFFER_STORAGE_LLB || ABUFFER_STORAGE == ABUFFER_STORAGE_DLLB
     || ABUFFER_STORAGE == ABUFFER_STORAGE_PAGED;
 
-// True if a cell has several lists; if only the nearest fragments are kept it has one, whatever the storage.
+// True if a cell has several lists. A cell that keeps its nearest fragments only has one list in every
+// storage.
 const bool ABUFFER_HAS_BUCKETS = ABUFFER_BUCKETED && ABUFFER_SINGLE_LAYER == 0u;
 
-// True if cells know the smallest and largest depth of their fragments.
+// True if each cell stores its ends: the smallest and the largest depth of its fragments.
 const bool ABUFFER_HAS_ENDS = ABUFFER_BUCKETED || ABUFFER_STEP == ABUFFER_STEP_SKIPS || ABUFFER_SINGLE_LAYER != 0u;
 
-// True if nodes lie in pages that are linked.
+// True if nodes lie in linked pages.
 const bool ABUFFER_PAGED = ABUFFER_STORAGE == ABUFFER_STORAGE_PAGED;
 
-// True if nodes link both ways.
+// True if each node links to the nodes before and behind it.
 const bool ABUFFER_DOUBLY = ABUFFER_STORAGE == ABUFFER_STORAGE_DLL || ABUFFER_STORAGE == ABUFFER_STORAGE_DLLB;
 
-// True if the nodes of a list are contiguous, without links.
+// True if the nodes of a list are contiguous and have no links.
 const bool ABUFFER_CONTIGUOUS = ABUFFER_STORAGE == ABUFFER_STORAGE_SB;
 
-// True if lists can be read from their far end.
+// True if a list can also be read from its far end.
 const bool ABUFFER_HAS_FAR_END = ABUFFER_DOUBLY || ABUFFER_CONTIGUOUS;
 
-// True if cells store the reach of triangles in depth from their fragments.
+// True if each cell stores its extent: how far, in depth, its triangles reach from their fragments.
 const bool ABUFFER_HAS_EXTENT = ABUFFER_TEST != ABUFFER_TEST_DEPTHS || ABUFFER_ACCEPT == ABUFFER_ACCEPT_SLOPE;
 
-// Number of words of bounds per cell: ends, the extent, the scale if there are buckets as well as an extent,
-// and the head of the cell's conservative list.
+// Number of words of bounds per cell: the two ends, the extent, the scale of the buckets (if a cell has both
+// buckets and an extent), and the head of the cell's conservative list. Each is stored only if it is used.
 const uint ABUFFER_BOUNDS_STRIDE = (ABUFFER_HAS_ENDS ? 2u : 0u)
     + (ABUFFER_HAS_EXTENT ? (ABUFFER_HAS_BUCKETS ? 2u : 1u) : 0u) + (ABUFFER_HAS_CONSERVATIVE ? 1u : 0u);
 
-// Word of the extent among a cell's bounds; the scale is the next word.
+// Word of the extent among the bounds of a cell. The scale is the next word.
 const uint ABUFFER_EXTENT_WORD = ABUFFER_HAS_ENDS ? 2u : 0u;
 
 // Number of words of a fragment's payload.
 const uint ABUFFER_PAYLOAD_WORDS =
     ABUFFER_PAYLOAD == ABUFFER_PAYLOAD_INDEX || ABUFFER_PAYLOAD == ABUFFER_PAYLOAD_NORMAL ? 1u : 4u;
 
-// Number of words of a fragment's payload and of the triangle that is kept for diagnostics.
+// Number of words of a fragment's payload together with the triangle that ABUFFER_IDS keeps for diagnostics.
 const uint ABUFFER_DATA_STRIDE = ABUFFER_PAYLOAD_WORDS + ABUFFER_IDS;
 
-// Word of a node's first link: after the depth, and after the payload if that is inline.
+// Word of a node's first link. Links follow the depth or, if the payload is inline, the payload.
 const uint ABUFFER_LINK_WORD = ABUFFER_INLINE != 0u ? 1u + ABUFFER_DATA_STRIDE : 1u;
 
-// Number of words of a node's links. Nodes in pages and contiguous ones have none; decoupled contiguous nodes
-// refer to their payload instead, because sorting moves them.
+// Number of words of a node's links. Nodes in pages have no links. Contiguous nodes with inline payload have
+// none either; with decoupled payload they have one word, which refers to their payload, because sorting
+// moves the node but not the payload.
 const uint ABUFFER_LINK_WORDS = ABUFFER_PAGED ? 0u
     : (ABUFFER_CONTIGUOUS ? (ABUFFER_INLINE != 0u ? 0u : 1u) : (ABUFFER_DOUBLY ? 2u : 1u));
 
 // Number of words of a node: depth, inline payload, links.
 const uint ABUFFER_NODE_STRIDE = ABUFFER_LINK_WORD + ABUFFER_LINK_WORDS;
 
-// Pages: nodes of a page, the word before them that leads to the next page, and words of a whole page;
-// without pages each node counts as one.
+// Number of nodes in a page, number of words before these nodes (the word that leads to the next page), and
+// number of words of a whole page. Without pages, each node counts as a page of one node.
 const uint ABUFFER_PAGE_SLOTS = ABUFFER_PAGED ? ABUFFER_PAGE : 1u;
 const uint ABUFFER_PAGE_WORDS = ABUFFER_PAGED ? 1u : 0u;
 const uint ABUFFER_PAGE_STRIDE = ABUFFER_PAGE_WORDS + ABUFFER_PAGE_SLOTS * ABUFFER_NODE_STRIDE;
 
-// Finds the smallest depth of a cell; false if the cell holds nothing.
+// Finds the smallest depth of a cell's fragments. Returns false if the cell holds nothing.
 bool abuffer_z_min(AbufferRef s, uint cell, out float z_min) {
     uint word = ABUFFER_POOL(s, bounds)[cell * ABUFFER_BOUNDS_STRIDE];
     z_min = uintBitsToFloat(~word);
@@ -82,16 +85,16 @@ bool abuffer_z_min(AbufferRef s, uint cell, out float z_min) {
 }
 
 #ifndef STRUCTURE_READ_ONLY
-// Widens the depths of a cell. Word 0 holds the complement of the smallest depth's bits, so that a cleared
-// cell is empty and both ends are maxima; positive floats order like their bits.
+// Widens the depth bounds of a cell. Word 0 holds the complement of the smallest depth's bits, so that a
+// cleared cell is empty and atomicMax widens both ends: positive floats order like their bits.
 void abuffer_widen_bounds(AbufferRef s, uint cell, float lower, float upper) {
     uint word = cell * ABUFFER_BOUNDS_STRIDE;
     atomicMax(ABUFFER_POOL(s, bounds)[word], ~floatBitsToUint(lower));
     atomicMax(ABUFFER_POOL(s, bounds)[word + 1u], floatBitsToUint(upper));
 }
 
-// Widens one end only, if only the nearest fragments are kept: the near end is known before they are stored,
-// the far end is that of the stored fragments.
+// Widens only the near end of a cell's bounds. Builds that keep the nearest fragments only find the near end
+// before they store fragments; the far end is that of the fragments that are stored (abuffer_widen_far).
 void abuffer_widen_near(AbufferRef s, uint cell, float z) {
     atomicMax(ABUFFER_POOL(s, bounds)[cell * ABUFFER_BOUNDS_STRIDE], ~floatBitsToUint(z));
 }
@@ -100,7 +103,7 @@ void abuffer_widen_far(AbufferRef s, uint cell, float z) {
     atomicMax(ABUFFER_POOL(s, bounds)[cell * ABUFFER_BOUNDS_STRIDE + 1u], floatBitsToUint(z));
 }
 
-// Widens the extent of a cell, if it has one.
+// Widens the extent of a cell, if cells store one.
 void abuffer_widen_extent(AbufferRef s, uint cell, float extent) {
     if (ABUFFER_HAS_EXTENT) {
         uint word = cell * ABUFFER_BOUNDS_STRIDE + ABUFFER_EXTENT_WORD;
@@ -108,7 +111,7 @@ void abuffer_widen_extent(AbufferRef s, uint cell, float extent) {
     }
 }
 
-// Stores the scale of a cell's buckets next to its bounds.
+// Stores the scale of a cell's buckets in the word behind the cell's extent.
 void abuffer_store_scale(AbufferRef s, uint cell) {
     uint word = cell * ABUFFER_BOUNDS_STRIDE;
     uint z_max = ABUFFER_POOL(s, bounds)[word + 1u];
@@ -118,24 +121,26 @@ void abuffer_store_scale(AbufferRef s, uint cell) {
 }
 #endif
 
-// Number of sets of marks of triangles: one set of the triangles that cells keep; with coverage edge-on, where marks
-// decide the contents of conservative lists, two: of triangles that have a fragment, and of those in such lists.
+// Number of sets of marks, which have one bit per triangle. Set 0 marks the triangles that a cell keeps. With
+// coverage edge-on there is a second set: set 0 then marks triangles that have a fragment, and decides the
+// contents of conservative lists; set 1 marks the triangles in these lists.
 uint abuffer_mark_sets() {
     return ABUFFER_COVERAGE == ABUFFER_COVERAGE_EDGE_ON ? 2u : 1u;
 }
 
-// Number of words of a set of marks, a bit each, behind the bounds of all cells.
+// Number of words of a set of marks. The sets lie behind the bounds of all cells.
 uint abuffer_mark_words(AbufferRef s) {
     return (ABUFFER_HEADER(s).triangles + 31u) / 32u;
 }
 
-// Returns the word that holds the first mark.
+// Returns the word of the bounds pool that holds the first mark.
 uint abuffer_marks(AbufferRef s) {
     return abuffer_cell_count(s) * ABUFFER_BOUNDS_STRIDE;
 }
 
 #ifndef STRUCTURE_READ_ONLY
-// Marks in a set a triangle that a cell keeps.
+// Marks in a set a triangle that a cell keeps. A triangle is marked for each such cell, so the bit is read
+// before the atomic operation.
 void abuffer_mark(AbufferRef s, uint primitive, uint set) {
     uint word = abuffer_marks(s) + set * abuffer_mark_words(s) + primitive / 32u;
     uint bit = 1u << (primitive % 32u);
@@ -145,13 +150,14 @@ void abuffer_mark(AbufferRef s, uint primitive, uint set) {
 }
 #endif
 
-// True if a triangle has a fragment.
+// True if a triangle has a fragment, by set 0 of the marks.
 bool abuffer_is_marked(AbufferRef s, uint primitive) {
     uint word = abuffer_marks(s) + primitive / 32u;
     return primitive < ABUFFER_HEADER(s).triangles && (ABUFFER_POOL(s, bounds)[word] & 1u << (primitive % 32u)) != 0u;
 }
 
-// Returns the bounds of a cell. Without ends they hold everything, and lists tell whether there is anything.
+// Returns the bounds of a cell. If cells do not store ends, the bounds contain all depths and are never
+// empty: the lists then tell whether the cell holds anything.
 AbufferBounds abuffer_bounds(AbufferRef s, uint cell) {
     AbufferBounds bounds = AbufferBounds(true, 0.0, 0.0, 0.0, 0.0);
     if (cell >= abuffer_cell_count(s)) {

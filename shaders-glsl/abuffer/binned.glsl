@@ -1,7 +1,9 @@
-// Work of a binning pass of an A-buffer on a triangle in a view; BIN_VISIT says which pass it is, and
-// CONSERVATIVE that the pass that stores fragments stores conservative lists, too.
-// Reads: geometry, header, bounds, with PAYLOAD_ATTRIBUTES the scene. Writes: see abuffer/visit.glsl.
-// Source: MMRT section 3.3, by computing instead of drawing. The same functions decide as in the raster builder.
+// Processes a triangle in a view for a binning pass of an A-buffer. BIN_VISIT names the pass. CONSERVATIVE
+// says that the pass that stores fragments also fills the conservative lists.
+// Reads: geometry, header, bounds; with PAYLOAD_ATTRIBUTES the scene. Writes: see abuffer/visit.glsl and
+// abuffer/visit_conservative.glsl.
+// Source: MMRT section 3.3, by compute passes instead of draws. The functions that decide about a cell are
+// those of the raster builder.
 #ifndef ABUFFER_BINNED_GLSL
 #define ABUFFER_BINNED_GLSL
 
@@ -12,8 +14,8 @@
 #include "abuffer/visit.glsl"
 #endif
 
-// Queue of large triangles, stored behind the sums of the scan; long lists use it after all triangles have
-// been visited.
+// The queue of large triangles lies in the scratch pool, behind the sums of the scan. The table of long lists
+// takes its place after all triangles have been visited.
 #define LargeRef AbufferRef
 #define LARGE_WORD(s, place) ABUFFER_POOL(s, scratch)[abuffer_scan_words(s) + place]
 #define LARGE_HEADER(s) ABUFFER_HEADER(s)
@@ -26,12 +28,12 @@ uint bin_view_count() {
     return (ABUFFER_HAS_CUBE ? VIEW_FACES : 0u) + (ABUFFER_HAS_CAMERA ? 1u : 0u);
 }
 
-// Returns the number of a view by its place among those that are built.
+// Returns the number of the view at a place among the views that are built.
 uint bin_view(uint place) {
     return place < VIEW_FACES && ABUFFER_HAS_CUBE ? place : ABUFFER_CAMERA;
 }
 
-// Triangle in a view, with the first and last cell that may keep it; equal in every pass.
+// A triangle in a view, with the first and last cell that may keep it. The cells are equal in every pass.
 struct Bin {
     uint primitive;
     uint view;
@@ -44,12 +46,13 @@ struct Bin {
     bool large;
 };
 
+// Loads the posed corners of a triangle. Every triangle is binned, so the result is always true.
 bool bin_load(uint primitive, out BinTriangle triangle) {
     triangle = bin_posed(primitive);
     return true;
 }
 
-// Begins a triangle in a view; false if no cell of the view keeps the triangle.
+// Begins a triangle in the view at a place. Returns false if no cell of the view keeps the triangle.
 bool bin_begin(BinTriangle triangle, uint place, out Bin bin) {
     bin.primitive = triangle.primitive;
     bin.view = bin_view(place);
@@ -74,6 +77,7 @@ bool bin_begin(BinTriangle triangle, uint place, out Bin bin) {
     return all(lessThanEqual(bin.lower, bin.upper));
 }
 
+// Visits a cell in place of a fragment invocation of the raster builder.
 void bin_visit(Bin bin, ivec2 place) {
 #if BIN_VISIT == BIN_VISIT_CONSERVATIVE || defined(CONSERVATIVE)
     abuffer_visit_reached(bin.primitive, bin.view, place);

@@ -1,6 +1,8 @@
-// Sorts the nodes of each page in place, by depth, ties by payload.
-// Reads: header. Writes: nodes, data.
-// Source: not in the paper. Unused slots have depth 0 and stay in front, so a page need not know how many are used.
+// Sorts the nodes of each page in place: by depth, and nodes of equal depth by the first word of their
+// payload.
+// Reads: header, nodes, data. Writes: nodes, data. One invocation per page.
+// Source: not in the paper. Slots of a page are used from its end. Unused slots have depth 0 and stay in
+// front, so the pass need not know how many slots are used.
 #version 460
 #include "contract/extensions.glsl"
 #include "abuffer/exchange.glsl"
@@ -17,7 +19,7 @@ void main() {
         return;
     }
     uint first = page * ABUFFER_PAGE + 1u;
-    // At most 28 steps.
+    // A page has at most 8 nodes, so both loops take at most 28 steps.
     for (uint i = 1u; i < ABUFFER_PAGE; i++) {
         for (uint k = i; k > 0u && !abuffer_comes_first(build.structure, first + k - 1u, first + k); k--) {
             abuffer_exchange(build.structure, first + k - 1u, first + k);

@@ -1,5 +1,5 @@
-// Lists the triangles that intersect the near region, where the faces cannot be told apart.
-// Reads: geometry, header. Writes: near-region list, header.near_demand.
+// Lists the triangles that intersect the near region, where rounding no longer tells the faces apart.
+// Reads: geometry, header. Writes: near-region list, header.near_demand. One invocation per triangle.
 // Source: not in the paper, whose faces start at a near plane; see docs/core.md.
 #version 460
 #include "contract/extensions.glsl"

@@ -1,6 +1,7 @@
-// Depth bounds of each cell, of storages with buckets; of a single layer its smallest depth alone,
-// whatever the storage.
-// Reads: geometry, header. Writes: bounds.
+// Finds the depth bounds of each cell, for storages with buckets. With a single layer it finds only the
+// smallest depth of each cell, for every storage.
+// Reads: geometry, header, with ALPHA_SCENE the scene. Writes: bounds.
+// One invocation per triangle, view and cell that build_raster.vert proposes.
 // Source: MMRT section 3.3, first geometry pass.
 #version 460
 #include "contract/extensions.glsl"

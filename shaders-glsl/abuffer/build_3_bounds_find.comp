@@ -1,5 +1,5 @@
-// The box around each object, from the posed corners of its triangles.
-// Reads: geometry, header. Writes: bounds, of boxes.
+// Finds the box around each object from the posed corners of its triangles.
+// Reads: geometry, header. Writes: bounds (the boxes). One invocation per triangle.
 // Source: MMRT section 3.3, bounding boxes in place of the geometry.
 #version 460
 #include "contract/extensions.glsl"

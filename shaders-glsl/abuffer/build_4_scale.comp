@@ -1,5 +1,6 @@
-// The scale of each cell's buckets, stored once so that build and trace use the same number.
-// Reads: bounds. Writes: bounds. Runs only where a cell has a word for it (buckets with plane acceptance).
+// Stores the scale of each cell's buckets, so that build and trace use the same number.
+// Reads: bounds. Writes: bounds. One invocation per cell.
+// The pass runs only if cells have a word for the scale: with buckets, and acceptance by planes or slopes.
 // Source: MMRT section 3.3, equation of the bucket index.
 #version 460
 #include "contract/extensions.glsl"

@@ -1,5 +1,6 @@
-// The length of each list, contiguous storage only.
-// Reads: geometry, header, with ALPHA_SCENE the scene. Writes: lists.
+// Counts the fragments of each list, for contiguous storage only.
+// Reads: geometry, header, bounds, with ALPHA_SCENE the scene. Writes: lists.
+// One invocation per triangle, view and cell that build_raster.vert proposes.
 // Source: MMRT section 4, S-buffer: fragments are counted first, so that lists can be stored contiguously.
 #version 460
 #include "contract/extensions.glsl"

@@ -1,7 +1,10 @@
-// Stores each fragment: a node in the list of its cell and bucket, its payload next to it. With CONSERVATIVE also
-// the triangle, in the conservative lists of cells that it reaches into without a fragment there.
-// Reads: geometry, bounds, with PAYLOAD_ATTRIBUTES the scene. Writes: lists, nodes, data, header.demand, marks; without
-// buckets and with a single layer the bounds; with CONSERVATIVE conservative lists, header.conservative_demand.
+// Stores each fragment as a node in the list of its cell and bucket, with its payload. With CONSERVATIVE the
+// pass also puts the triangle into the conservative list of each cell that it reaches into without a fragment
+// there.
+// Reads: geometry, header, bounds, with ALPHA_SCENE or PAYLOAD_ATTRIBUTES the scene.
+// Writes: lists, nodes, data, header.demand, marks; bounds, as far as no earlier pass found them; with
+// CONSERVATIVE conservative lists, header.conservative_demand.
+// One invocation per triangle, view and cell that build_raster.vert proposes.
 // Source: MMRT section 3.3, second geometry pass.
 #version 460
 #include "contract/extensions.glsl"

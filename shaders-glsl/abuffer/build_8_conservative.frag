@@ -1,7 +1,7 @@
-// Keeps triangles without a fragment, and those seen edge-on, in cells that they reach into without covering
-// their centre.
-// Reads: geometry, header, marks. Writes: bounds, marks, conservative lists, header.conservative_demand. Edge-on coverage
-// only.
+// Puts triangles without a fragment, and triangles seen edge-on, into the conservative lists of the cells
+// that they reach into without covering the centre. Runs with edge-on coverage only.
+// Reads: geometry, header, marks. Writes: bounds, marks, conservative lists, header.conservative_demand.
+// One invocation per triangle, view and cell that build_raster.vert proposes.
 // Source: not in the paper, which mentions edge-on triangles as a limitation.
 #version 460
 #include "contract/extensions.glsl"

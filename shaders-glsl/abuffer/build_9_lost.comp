@@ -1,4 +1,4 @@
-// Counts the triangles that rays cannot hit: those with an area that no cell of any view keeps.
+// Counts the triangles that rays cannot hit: triangles that have an area, but that no cell of any view keeps.
 // Reads: header, bounds, geometry. Writes: header.lost. One invocation per word of marks.
 // Source: not in the paper, which mentions edge-on triangles as a limitation.
 #version 460

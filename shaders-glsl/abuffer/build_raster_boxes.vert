@@ -1,5 +1,6 @@
-// Proposes, for each box around objects and each view, the cells whose centres the objects in the box may cover.
-// Reads: header, bounds of boxes. Writes: nothing.
+// Proposes, for each box around objects and each view, the cells whose centres the objects in the box may
+// cover.
+// Reads: header, bounds (the boxes). Writes: nothing. Three vertices per box, one instance per view.
 // Source: MMRT section 3.3, bounding boxes in place of the geometry.
 #version 460
 #include "contract/extensions.glsl"
@@ -16,7 +17,7 @@ layout(location = 2) flat out vec3 last;
 void main() {
     uint box = uint(gl_VertexIndex) / 3u;
     uint corner = uint(gl_VertexIndex) % 3u;
-    // The step is the first of the views that are drawn.
+    // The step of the pass is the first of the views that are drawn.
     view = build.step + uint(gl_InstanceIndex);
     first = vec3(0.0);
     last = vec3(0.0);

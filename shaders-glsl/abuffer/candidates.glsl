@@ -1,5 +1,5 @@
-// Tests one candidate that a cell lists: a triangle, or the stored plane of a fragment.
-// Reads: nodes, data, geometry (of triangles). Writes: nothing.
+// Tests one fragment that a cell lists: its depth, or its stored plane.
+// Reads: nodes, data; with payload index also geometry. Writes: header.corrupted.
 #ifndef ABUFFER_CANDIDATES_GLSL
 #define ABUFFER_CANDIDATES_GLSL
 
@@ -10,14 +10,14 @@
 #include "abuffer/nodes.glsl"
 #include "abuffer/stored_plane.glsl"
 
-// True if a fragment without an id replaces the best hit: it is nearer, or as near as another such fragment
-// and has the lower words.
+// True if a fragment without a triangle's id replaces the best hit: the fragment is nearer, or it is as near
+// as a best hit without an id and its payload has the lower words.
 bool abuffer_is_better(AbufferRef s, Hit best, float t, uint link) {
     bool tie = t == best.t && best.primitive == PRIMITIVE_UNKNOWN;
     return t < best.t || (tie && abuffer_payload_is_lower(s, link, floatBitsToUint(best.a)));
 }
 
-// True if a ray passes a fragment because it meets the back of its surface.
+// True if a ray passes through a fragment, because it meets the back of the fragment's surface.
 bool abuffer_is_passed(AbufferRef s, Ray ray, uint primitive, uint link) {
     if (!ray_culls_back_faces(ray)) {
         return false;
@@ -34,8 +34,8 @@ bool abuffer_is_passed(AbufferRef s, Ray ray, uint primitive, uint link) {
     return stored_is_passed(ray, uvec2(abuffer_data(s, link, 0u), abuffer_data(s, link, 1u)));
 }
 
-// Tests a fragment that a ray hits at t, where its depth is z, logs the test, and replaces the best hit if
-// the fragment is accepted.
+// Tests a fragment by its depth z, which the ray has at t. Logs the test, and replaces the best hit if the
+// fragment is accepted.
 void abuffer_accept_depth(AbufferRef s, Ray ray, uint primitive, uint link, float z, float t, inout Hit best) {
     bool better;
     if (ABUFFER_PAYLOAD == ABUFFER_PAYLOAD_INDEX) {
@@ -60,9 +60,9 @@ void abuffer_accept_depth(AbufferRef s, Ray ray, uint primitive, uint link, floa
     }
 }
 
-// Tests the stored plane of a fragment within [t_low, t_high], logs the test, and replaces the best hit if
-// the plane is accepted. Rays that leave a surface begin a cell off it, so that they need no special case.
-// The caller counts the test.
+// Tests the stored plane of a fragment for a hit within [t_low, t_high]. Logs the test, and replaces the best
+// hit if the plane is accepted. Rays that leave a surface begin a cell off it, so the plane of that surface
+// needs no special case. The caller counts the test.
 void abuffer_test_stored_plane(AbufferRef s, Ray ray, uint link, float t_low, float t_high, inout Hit best) {
     precise vec3 origin = ray.origin - abuffer_eye(s);
     float t;

@@ -1,5 +1,5 @@
-// Exchanges two nodes where they are, for storages in which the places give the order.
-// Reads, writes: nodes, of pages also data.
+// Exchanges two nodes in place, for storages in which the places of nodes give their order.
+// Reads, writes: nodes; with pages also data.
 #ifndef ABUFFER_EXCHANGE_GLSL
 #define ABUFFER_EXCHANGE_GLSL
 
@@ -13,7 +13,8 @@ void abuffer_exchange(AbufferRef s, uint left, uint right) {
         ABUFFER_POOL(s, nodes)[left_word + word] = ABUFFER_POOL(s, nodes)[right_word + word];
         ABUFFER_POOL(s, nodes)[right_word + word] = value;
     }
-    // Contiguous nodes refer to their payload, nodes of pages share its number.
+    // A contiguous node takes the reference to its payload along. In pages a payload has the number of its
+    // node, so decoupled payloads are exchanged, too.
     if (ABUFFER_PAGED && ABUFFER_INLINE == 0u) {
         for (uint word = 0u; word < ABUFFER_DATA_STRIDE; word++) {
             uint value = abuffer_data(s, left, word);

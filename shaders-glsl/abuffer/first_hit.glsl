@@ -1,5 +1,6 @@
-// The nearest fragment in the cell of the camera's view that a camera ray passes, in place of a trace.
-// Reads: bounds, lists, nodes, data, geometry (of triangles). Writes: header.corrupted.
+// Finds the first hit of a camera ray without a trace: the nearest fragment in the cell of the camera's view
+// that the ray passes.
+// Reads: bounds, lists, nodes, data, with payload index geometry. Writes: header.corrupted.
 // Source: MMRT section 3.4, whose paths begin at the first fragment of the camera's view.
 #ifndef ABUFFER_FIRST_HIT_GLSL
 #define ABUFFER_FIRST_HIT_GLSL
@@ -8,8 +9,9 @@
 #include "abuffer/candidates.glsl"
 #include "abuffer/lists.glsl"
 
-// Returns the cell of the camera's view that a direction from the eye passes, where `seen` is the direction
-// in this view; a cell that the view does not have if the direction passes none.
+// Returns the cell of the camera's view through which a direction from the eye passes; `seen` is the
+// direction in that view. If the direction passes through none, the result is a cell that the view does not
+// have.
 ivec2 abuffer_cell_seen(AbufferRef s, vec3 seen) {
     if (!(seen.z > 0.0)) {
         return ivec2(-2);
@@ -18,9 +20,9 @@ ivec2 abuffer_cell_seen(AbufferRef s, vec3 seen) {
     return ivec2(floor(clamp(0.5 * (seen.xy / seen.z + 1.0) * side, -2.0, side + 2.0)));
 }
 
-// Finds the link of a cell's nearest fragment whose back the ray does not pass, 0 without one; false if the
-// work budget ended before. Buckets follow one another in depth; a list is read to its end if it is not
-// sorted.
+// Finds the link of a cell's nearest fragment, leaving out those whose back the ray passes; the link is 0 if
+// there is none. Returns false if the work budget ended before. Buckets follow one another in depth, so the
+// first bucket with a fragment is enough; in a bucket, a list that is not sorted is read to its end.
 bool abuffer_find_nearest(AbufferRef s, Ray ray, uint cell, out uint nearest) {
     bool ordered = ABUFFER_SORT != 0u && !ABUFFER_PAGED && ABUFFER_HEADER(s).unsorted == 0u;
     float nearest_z = 0.0;
@@ -49,8 +51,8 @@ bool abuffer_find_nearest(AbufferRef s, Ray ray, uint cell, out uint nearest) {
     return true;
 }
 
-// Returns the direction from the eye through the centre of a cell of the camera's view, of depth 1 there: the
-// view's rows are perpendicular to one another.
+// Returns the direction from the eye through the centre of a cell of the camera's view, with depth 1 in the
+// view. The sum inverts the view's matrix, whose rows are perpendicular to one another.
 vec3 abuffer_centre_of(AbufferRef s, ivec2 cell) {
     uint side = abuffer_resolution(s, ABUFFER_CAMERA);
     vec3 x = ABUFFER_HEADER(s).camera_x;
@@ -59,8 +61,8 @@ vec3 abuffer_centre_of(AbufferRef s, ivec2 cell) {
     return cell_center(cell.x, side) / dot(x, x) * x + cell_center(cell.y, side) / dot(y, y) * y + z / dot(z, z);
 }
 
-// Returns the hit on a fragment of a cell: the ray has its depth at t, and the surface is that at the cell's
-// centre.
+// Returns the hit on a fragment of a cell. The hit's t is where the ray has the fragment's depth, and its
+// surface is that at the cell's centre.
 Hit abuffer_hit_on(AbufferRef s, uint link, ivec2 cell, float depth_of_direction) {
     float z = abuffer_z(s, link);
     float t = z / depth_of_direction;
@@ -74,7 +76,8 @@ Hit abuffer_hit_on(AbufferRef s, uint link, ivec2 cell, float depth_of_direction
     return Hit(t, primitive, found.x, found.y);
 }
 
-// Finds the first hit of a camera ray, which begins at the eye. TRACE_PAUSED if the work budget ended before.
+// Finds the first hit of a camera ray, which begins at the eye. Returns TRACE_PAUSED if the work budget ended
+// before.
 uint abuffer_first_hit(AbufferRef s, Ray ray, out Hit hit) {
     hit = Hit(ray.t_max, PRIMITIVE_NONE, 0.0, 0.0);
     if (!ray_is_valid(ray)) {

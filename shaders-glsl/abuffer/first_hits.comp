@@ -1,5 +1,7 @@
-// The first hits of the camera rays of a queue, in place of a trace.
-// Reads: rays, the structure, geometry. Writes: hits; counts rays whose cell holds more than one dispatch reads as unfinished.
+// Finds the first hits of the camera rays of a queue, in place of a trace.
+// Reads: rays, the structure, geometry. Writes: hits, the queue's counts of unfinished rays and of rays
+// without an answer. One invocation per slot of the domain.
+// A ray counts as unfinished if its cell holds more fragments than one dispatch may read.
 // Source: MMRT section 3.4.
 #version 460
 #include "contract/extensions.glsl"

@@ -1,4 +1,4 @@
-// Works out depths and margins of an A-buffer from the bounds of the geometry as seen from the eye.
+// Computes depths and margins of an A-buffer from the bounds of the geometry and the eye.
 // Reads, writes: header.
 // Source: none; docs/core.md, docs/systems/mmrt.md.
 #ifndef ABUFFER_FROM_BOUNDS_GLSL
@@ -7,6 +7,7 @@
 #include "ads/placement.glsl"
 #include "abuffer/header.glsl"
 
+// Sets what depends on the bounds, whose corners are in metres relative to the frame origin.
 void abuffer_from_bounds(AbufferRef s, vec3 lower, vec3 upper) {
     vec3 eye = ABUFFER_HEADER(s).eye;
     float widest = ABUFFER_HEADER(s).widest;
@@ -14,14 +15,15 @@ void abuffer_from_bounds(AbufferRef s, vec3 lower, vec3 upper) {
     vec3 first = lower - eye;
     vec3 last = upper - eye;
     float reach = box_reach(first, last);
-    // The subtraction above rounds, and so does that of the passes.
+    // The difference to the eye rounds here, and again in each pass.
     float rounding = ABUFFER_ROUNDING * (reach + largest_axis(abs(eye)));
     float triangle_rounding = ABUFFER_HEADER(s).rounding_per_reach * reach;
-    // Planes and depths represent everything in their cell, so rays hit them up to a cell beyond the
-    // geometry. A ray that ended at the bounds would miss surfaces that lie on them.
+    // Planes and depths stand for everything in their cell, so rays may hit them up to a cell beyond the
+    // geometry. Without a margin a ray would also end before surfaces that lie on the bounds.
     float margin = ABUFFER_CONSERVATIVE ? triangle_rounding : rounding + widest * reach;
-    // Nearer to the eye than this a point's cell is lost in rounding. If nothing may be lost the march needs
-    // more, and a hit of a ray outside the near region is not behind the eye.
+    // Closer to the eye than `near`, rounding leaves the cell of a point open. If no triangle may be lost,
+    // the near region is also at least twice as large as the rounding of triangles, so that a hit outside the
+    // near region is never behind the eye.
     float near = near_per_reach * reach;
     if (ABUFFER_HAS_CONSERVATIVE) {
         near = max(max(near, 2.0 * triangle_rounding), PLACEMENT_SMALLEST);

@@ -1,5 +1,5 @@
-// The header of an A-buffer.
-// Reads, writes: header; stages with STRUCTURE_READ_ONLY only read it.
+// Declares the header of an A-buffer, and the macro that reaches it.
+// Reads, writes: header. Stages that define STRUCTURE_READ_ONLY only read it.
 #ifndef ABUFFER_HEADER_GLSL
 #define ABUFFER_HEADER_GLSL
 

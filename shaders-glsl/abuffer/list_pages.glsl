@@ -1,4 +1,5 @@
-// The pages of an A-buffer: where they are, and taking a slot for a fragment.
+// Finds the pages of an A-buffer, for the functions of ads/pages.glsl, and takes a slot of a page for a
+// fragment.
 // Reads, writes: lists, nodes, header.demand, header.fragments.
 // Source: not in the paper; see ads/pages.glsl.
 #ifndef ABUFFER_LIST_PAGES_GLSL
@@ -14,7 +15,7 @@
 #define PAGE_CAPACITY(s) ABUFFER_HEADER(s).capacity
 #include "ads/pages.glsl"
 
-// Takes a slot for a fragment of a list; 0 if its page does not exist.
+// Takes a slot for a fragment of a list and returns its link; 0 if the slot's page lies beyond the capacity.
 uint abuffer_page_allocate(AbufferRef s, uint list) {
     atomicAdd(ABUFFER_HEADER(s).fragments, 1u);
     uint slot = page_take_slot(s, list);

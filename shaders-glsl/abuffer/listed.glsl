@@ -1,5 +1,5 @@
-// Tests listed triangles one by one: those of the near region, those of a cell's
-// conservative list, or all.
+// Tests triangles of a list one by one: of the near-region list, of a cell's conservative list, or all
+// triangles.
 // Reads: near-region list, conservative lists, geometry. Writes: header.corrupted.
 // Source: not in the paper, which keeps only fragments.
 #ifndef ABUFFER_LISTED_GLSL
@@ -13,13 +13,14 @@
 #include "abuffer/search.glsl"
 #include "abuffer/traversal.glsl"
 
-// Lists of triangles to test.
+// Lists whose triangles are tested.
 #define ABUFFER_LISTED_NEAR 0u
 #define ABUFFER_LISTED_CONSERVATIVE 1u
 #define ABUFFER_LISTED_ALL 2u
 
-// Tests the triangles in the conservative list of the current cell whose depths overlap the ray's there, or
-// the triangles of another list from the traversal's place on. Returns true if the work budget ended before.
+// Tests triangles of a list: of the conservative list of the current cell those whose depths overlap the
+// ray's depths there, of another list those from the traversal's place on. Returns true if the work budget
+// ended before the list.
 bool abuffer_test_listed(AbufferRef s, Ray ray, uint source, inout AbufferTraversal traversal,
     inout AbufferSearch search,
     inout TraceState state, inout uint work) {
@@ -32,14 +33,13 @@ bool abuffer_test_listed(AbufferRef s, Ray ray, uint source, inout AbufferTraver
         count = source == ABUFFER_LISTED_ALL ? geometry_triangle_count()
             : min(ABUFFER_HEADER(s).near_demand, ABUFFER_HEADER(s).near_capacity);
     }
-    // Triangles of a conservative list count wherever they are hit, and so do all triangles if nothing else
-    // is tested.
+    // Hits on triangles of a conservative list count at any t. If rays test triangles only, so do all hits.
     bool anywhere = in_conservative || ABUFFER_CONSERVATIVE;
     float t_low = anywhere ? -ABUFFER_INFINITY : traversal.segment.t_begin - traversal.segment.t_error;
     float t_high = anywhere ? ABUFFER_INFINITY : traversal.segment.t_end + traversal.segment.t_error;
     vec2 depths = search.z + vec2(-search.rounding, search.rounding);
     while (true) {
-        // The next triangle is found in a loop of its own: rays that run together test theirs together.
+        // A loop of its own finds the next triangle, so that rays that run together also test together.
         uint primitive = PRIMITIVE_NONE;
         bool more = in_conservative ? search.link != 0u : traversal.place < count;
         while (more && primitive == PRIMITIVE_NONE && work < work_budget) {
@@ -50,7 +50,8 @@ bool abuffer_test_listed(AbufferRef s, Ray ray, uint source, inout AbufferTraver
                 ConservativeNode node = conservative_node(s, search.link);
                 search.link = node.next;
                 more = search.link != 0u;
-                // With planes, only hits within the ray's interval in the cell count, with or without skipping.
+                // If rays hit planes, the triangles tested here decide hits. So triangles outside the ray's
+                // depths are left out even without skipping.
                 bool intersects = (ABUFFER_SKIP == 0u && ABUFFER_CONSERVATIVE) || conservative_intersects(node, depths.x,
                     depths.y);
                 if (node.word != PRIMITIVE_NONE && intersects) {

@@ -1,15 +1,16 @@
-// The lists of a cell, in one of several storages: how a fragment is put into one, and how one is
-// read from either end.
+// Puts fragments into the lists of a cell, and reads a list from either end, in each of several storages.
 // Reads, writes: lists, nodes, header.demand, header.corrupted.
-// Source: MMRT section 3.3 and table 2. Linked: a head, doubly linked also a tail, of each bucket. Contiguous: a
-// first place of each cell, and behind all of those the counts. Paged: the word that leads to the first page.
+// Source: MMRT section 3.3 and table 2.
+// The pool of lists depends on the storage. Linked: the head of each bucket's list; doubly linked: its head
+// and its tail. Contiguous: the first place of each cell's list, and behind all of these the lengths. Paged:
+// for each bucket the word that leads to the first page.
 #ifndef ABUFFER_LISTS_GLSL
 #define ABUFFER_LISTS_GLSL
 
 #include "ads/constants.glsl"
 #include "abuffer/list_pages.glsl"
 
-// Returns the running index of the list of a cell's bucket. Storages without buckets have one bucket.
+// Returns the running index of the list of a cell's bucket. In a storage without buckets each cell has one.
 uint abuffer_list(uint cell, uint bucket) {
     return cell * ABUFFER_BUCKETS + bucket;
 }
@@ -18,18 +19,18 @@ uint abuffer_list_count(AbufferRef s) {
     return abuffer_cell_count(s) * ABUFFER_BUCKETS;
 }
 
-// Returns the number of words of the scratch pool that the scan takes.
+// Returns the number of words at the front of the scratch pool that hold the sums of the scan.
 uint abuffer_scan_words(AbufferRef s) {
     return ABUFFER_CONTIGUOUS ? (abuffer_list_count(s) + SCAN_BLOCK - 1u) / SCAN_BLOCK : 0u;
 }
 
-// Returns the word of a linked list's head; a tail is the next word.
+// Returns the word that holds the head of a linked list. Its tail, if it has one, is in the next word.
 uint abuffer_head_word(uint list) {
     return ABUFFER_DOUBLY ? 2u * list : list;
 }
 
-// Returns the links of the first and the last node of a contiguous list, zeros if it is empty. Nodes past the
-// end of the pool are counted and left out.
+// Returns the links of the first and the last node of a contiguous list, or zeros if the list is empty. A
+// list that reaches beyond the end of the pool is counted as corrupted and treated as empty.
 uvec2 abuffer_ends(AbufferRef s, uint list) {
     uint first = ABUFFER_POOL(s, lists)[list];
     uint count = ABUFFER_POOL(s, lists)[abuffer_list_count(s) + list];
@@ -44,12 +45,13 @@ uvec2 abuffer_ends(AbufferRef s, uint list) {
     return uvec2(first + 1u, first + count);
 }
 
-// Adds one to the length of a contiguous list, before the scan that turns lengths into places.
+// Adds one to the length of a contiguous list. The scan turns lengths into places afterwards.
 void abuffer_count_one(AbufferRef s, uint list) {
     atomicAdd(ABUFFER_POOL(s, lists)[list], 1u);
 }
 
-// Takes a node for a fragment of a list; 0 beyond the capacity, which is counted.
+// Takes a node for a fragment of a list and returns its link. Beyond the capacity the fragment is only
+// counted, and the link is 0.
 uint abuffer_allocate(AbufferRef s, uint list) {
     uint node = 0u;
     if (ABUFFER_PAGED) {
@@ -71,8 +73,8 @@ uint abuffer_allocate(AbufferRef s, uint list) {
 }
 
 // Puts a node with its depth into its list; in a linked list, at the front. Nodes start out zeroed, so `prev`
-// of the newest is 0. The only writer of the old head's `prev` is the thread that replaced it, and the only
-// writer of the tail is the thread that found the list empty.
+// of the newest node is 0. No word has two writers: `prev` of the old head is written only by the thread that
+// replaced the head, and the tail only by the thread that found the list empty.
 void abuffer_push(AbufferRef s, uint list, uint link, float z) {
     abuffer_set_z(s, link, z);
     if (ABUFFER_CONTIGUOUS || ABUFFER_PAGED) {
@@ -93,12 +95,13 @@ void abuffer_push(AbufferRef s, uint list, uint link, float z) {
 
 // Cursor of a list that is being read.
 struct AbufferCursor {
-    uint link;            // the next node; 0 at the end
-    uint last;            // the node that ends the list, contiguous only
-    bool backward;        // towards the eye where the list is sorted
+    uint link;            // link of the next node; 0 at the end
+    uint last;            // link of the node that ends the list; contiguous only
+    bool backward;        // from the far end of the list, towards the eye if it is sorted
 };
 
-// Begins a list at its far end (if it has one) or at its near end.
+// Returns a cursor at the near end of a list or, with `backward`, at its far end, which ABUFFER_HAS_FAR_END
+// says exists.
 AbufferCursor abuffer_list_begin(AbufferRef s, uint list, bool backward) {
     if (ABUFFER_CONTIGUOUS) {
         uvec2 ends = abuffer_ends(s, list);
@@ -111,7 +114,7 @@ AbufferCursor abuffer_list_begin(AbufferRef s, uint list, bool backward) {
     return AbufferCursor(ABUFFER_POOL(s, lists)[backward ? word + 1u : word], 0u, backward);
 }
 
-// Resumes a list that has been read up to `link`.
+// Returns a cursor that goes on at `link` in a list that was read up to there.
 AbufferCursor abuffer_list_resume(AbufferRef s, uint list, bool backward, uint link) {
     AbufferCursor cursor = AbufferCursor(link, 0u, backward);
     if (ABUFFER_CONTIGUOUS) {
@@ -120,7 +123,7 @@ AbufferCursor abuffer_list_resume(AbufferRef s, uint list, bool backward, uint l
     return cursor;
 }
 
-// True if a link refers to a node that was stored; a link that does not is counted.
+// True if a link refers to a node that was stored. Any other link is counted as corrupted.
 bool abuffer_is_stored(AbufferRef s, uint link) {
     if (link - 1u < abuffer_stored(s)) {
         return true;
@@ -129,8 +132,8 @@ bool abuffer_is_stored(AbufferRef s, uint link) {
     return false;
 }
 
-// Returns the next node of a list that has not ended. A link past the end is counted, ends the list and gives
-// 0.
+// Returns the link of the next node of a list that has not ended. A link beyond the end of the pool is
+// counted as corrupted, ends the list and gives 0.
 uint abuffer_list_next(AbufferRef s, inout AbufferCursor cursor) {
     uint link = cursor.link;
     if (!abuffer_is_stored(s, link)) {
@@ -147,7 +150,8 @@ uint abuffer_list_next(AbufferRef s, inout AbufferCursor cursor) {
     return link;
 }
 
-// Skips the nodes after a node in its order: the rest of the list, or of the page if only pages are sorted.
+// Skips the nodes that are sorted behind a node: the rest of the list or, with pages, the rest of the page,
+// since only the nodes within a page are sorted.
 void abuffer_list_skip(AbufferRef s, uint link, inout AbufferCursor cursor) {
     cursor.link = ABUFFER_PAGED ? page_link_of_next(s, link) : 0u;
 }

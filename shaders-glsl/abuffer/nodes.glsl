@@ -1,25 +1,27 @@
-// One fragment: the words of its node and of its payload. A link is a node's number + 1; 0 is none. Nodes in
-// pages are numbered over all slots.
-// Reads, writes: nodes, data, header.demand.
-// Source: MMRT section 3.3 and table 2. Decoupled payload lies in a pool of its own, inline payload between a
-// node's depth and its links.
+// Reads and writes one fragment: the words of its node and of its payload.
+// Reads: header. Reads, writes: nodes, data, header.corrupted.
+// Source: MMRT section 3.3 and table 2. Decoupled payload lies in a pool of its own; inline payload lies
+// between a node's depth and its links.
+// A link is the number of a node + 1, and 0 is no node. With pages, nodes are numbered over the slots of all
+// pages.
 #ifndef ABUFFER_NODES_GLSL
 #define ABUFFER_NODES_GLSL
 
 #include "abuffer/accessors.glsl"
 
-// Returns the number of nodes that were stored; for pages the number of all slots.
+// Returns the number of nodes that were stored; with pages, the number of slots of all stored pages.
 uint abuffer_stored(AbufferRef s) {
     return min(ABUFFER_HEADER(s).capacity, ABUFFER_HEADER(s).demand) * ABUFFER_PAGE_SLOTS;
 }
 
+// Returns the first word of a node.
 uint abuffer_node_word(uint link) {
     uint slot = link - 1u;
     return slot / ABUFFER_PAGE_SLOTS * ABUFFER_PAGE_STRIDE + ABUFFER_PAGE_WORDS
         + slot % ABUFFER_PAGE_SLOTS * ABUFFER_NODE_STRIDE;
 }
 
-// Returns the depth at the cell's centre, metres.
+// Returns the depth of a node at the centre of its cell, metres.
 float abuffer_z(AbufferRef s, uint link) {
     return uintBitsToFloat(ABUFFER_POOL(s, nodes)[abuffer_node_word(link)]);
 }
@@ -28,7 +30,7 @@ void abuffer_set_z(AbufferRef s, uint link, float z) {
     ABUFFER_POOL(s, nodes)[abuffer_node_word(link)] = floatBitsToUint(z);
 }
 
-// Returns the link away from the eye, of linked nodes.
+// Returns the link of the next node in a linked list, away from the eye if the list is sorted.
 uint abuffer_next(AbufferRef s, uint link) {
     return ABUFFER_POOL(s, nodes)[abuffer_node_word(link) + ABUFFER_LINK_WORD];
 }
@@ -37,7 +39,7 @@ void abuffer_set_next(AbufferRef s, uint link, uint next) {
     ABUFFER_POOL(s, nodes)[abuffer_node_word(link) + ABUFFER_LINK_WORD] = next;
 }
 
-// Returns the link towards the eye, of nodes that link both ways.
+// Returns the link of the node before in a doubly linked list, towards the eye if the list is sorted.
 uint abuffer_prev(AbufferRef s, uint link) {
     return ABUFFER_POOL(s, nodes)[abuffer_node_word(link) + ABUFFER_LINK_WORD + 1u];
 }
@@ -46,8 +48,8 @@ void abuffer_set_prev(AbufferRef s, uint link, uint prev) {
     ABUFFER_POOL(s, nodes)[abuffer_node_word(link) + ABUFFER_LINK_WORD + 1u] = prev;
 }
 
-// Returns a word of a fragment's payload. A contiguous node whose payload is past the end is counted and
-// gives 0.
+// Returns a word of a fragment's payload. If a contiguous node refers beyond the end of the payloads, the
+// node is counted as corrupted and the word is 0.
 uint abuffer_data(AbufferRef s, uint link, uint word) {
     if (ABUFFER_INLINE != 0u) {
         return ABUFFER_POOL(s, nodes)[abuffer_node_word(link) + 1u + word];
@@ -63,7 +65,8 @@ uint abuffer_data(AbufferRef s, uint link, uint word) {
     return ABUFFER_POOL(s, data)[place * ABUFFER_DATA_STRIDE + word];
 }
 
-// Stores a word of payload, before anything is sorted: until then payload and node have the same number.
+// Stores a word of a fragment's payload. In contiguous storage this works only before lists are sorted, while
+// a payload has the same number as its node.
 void abuffer_set_data(AbufferRef s, uint link, uint word, uint value) {
     if (ABUFFER_INLINE != 0u) {
         ABUFFER_POOL(s, nodes)[abuffer_node_word(link) + 1u + word] = value;
@@ -75,7 +78,7 @@ void abuffer_set_data(AbufferRef s, uint link, uint word, uint value) {
     ABUFFER_POOL(s, data)[(link - 1u) * ABUFFER_DATA_STRIDE + word] = value;
 }
 
-// Returns the words of a fragment's payload; zeros after its last word.
+// Returns the words of a fragment's payload, with zeros behind the last one.
 uvec4 abuffer_payload(AbufferRef s, uint link) {
     uvec4 words = uvec4(0u);
     for (uint word = 0u; word < ABUFFER_PAYLOAD_WORDS; word++) {
@@ -84,9 +87,9 @@ uvec4 abuffer_payload(AbufferRef s, uint link) {
     return words;
 }
 
-// True if the left fragment's payload has the lower words, by the first that differ. These are nearly always
-// the first of all, so that a loop that ends there costs less than an unrolled one. Sorts cannot use it:
-// their steps leave no budget for further iterations.
+// True if the payload of the left fragment has the lower words, by the first word that differs. That is
+// nearly always word 0, so a loop that ends there costs less than an unrolled one. Sorts cannot use this
+// function: their steps leave no budget for further iterations.
 bool abuffer_payload_is_lower(AbufferRef s, uint left, uint right) {
     bool lower = false;
     bool equal = true;
@@ -99,8 +102,8 @@ bool abuffer_payload_is_lower(AbufferRef s, uint left, uint right) {
     return lower;
 }
 
-// True if the left node comes first in sorted lists: by depth, ties by the first word of payload. Hits do not
-// depend on the order of ties.
+// True if the left node comes first in sorted lists: by depth, at equal depth by the first word of payload.
+// Hits do not depend on the order of nodes of equal depth.
 bool abuffer_comes_first(AbufferRef s, uint left, uint right) {
     float left_z = abuffer_z(s, left);
     float right_z = abuffer_z(s, right);

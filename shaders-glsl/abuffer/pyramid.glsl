@@ -1,6 +1,7 @@
-// The pyramids of an A-buffer, the cube's and the camera's, and the depths of a cell in them.
-// Reads: header, bounds, conservative lists. Writes: bounds, of blocks.
-// Source: not in the paper; DIRT section 4.1.1 has the same over lists of triangles.
+// Reads and writes the blocks of an A-buffer's pyramids, the cube's and the camera's, and finds the depths of
+// a cell from which blocks are made (see ads/pyramid.glsl).
+// Reads: header, bounds, conservative lists. Writes: bounds (the blocks), header.corrupted.
+// Source: not in the paper; DIRT section 4.1.1 has a pyramid over lists of triangles.
 #ifndef ABUFFER_PYRAMID_GLSL
 #define ABUFFER_PYRAMID_GLSL
 
@@ -16,12 +17,13 @@ void abuffer_pyramid_write(AbufferRef s, uint word, uvec2 words) {
     ABUFFER_POOL(s, bounds)[word + 1u] = words.y;
 }
 
-// Largest number of triangles of a conservative list whose depths are evaluated; a cell with more is never
-// skipped.
+// Largest number of triangles of a conservative list whose depths are evaluated. A cell with a longer list is
+// never skipped.
 #define ABUFFER_PYRAMID_CONSERVATIVE 1024u
 
-// Returns the depths that the triangles of a cell's conservative list have in the cell. Without buckets,
-// which lie between the bounds of fragments, the cell's depths include them.
+// Returns the depths that the triangles of a cell's conservative list have in the cell, widened by rounding.
+// Without buckets the result is empty, because the cell's bounds include these triangles; with buckets,
+// bounds are those of fragments alone.
 uvec2 abuffer_pyramid_conservative(AbufferRef s, uint cell) {
     uvec2 words = uvec2(0u);
     uint link = ABUFFER_BUCKETED ? abuffer_conservative_head(s, cell) : 0u;
@@ -40,7 +42,7 @@ uvec2 abuffer_pyramid_conservative(AbufferRef s, uint cell) {
     return words;
 }
 
-// Returns the depths of rays at which a fragment of the cell may be accepted: the depths of its fragments,
+// Returns the depths of rays at which a fragment of the cell may be accepted: the depths of the fragments,
 // widened by their reach.
 uvec2 abuffer_pyramid_fragments(AbufferRef s, uint view, ivec2 cell) {
     AbufferBounds bounds = abuffer_bounds(s, abuffer_cell(s, view, cell));
@@ -49,12 +51,12 @@ uvec2 abuffer_pyramid_fragments(AbufferRef s, uint view, ivec2 cell) {
     }
     float reach = ABUFFER_ACCEPT == ABUFFER_ACCEPT_THICKNESS ? ABUFFER_HEADER(s).thickness : bounds.extent;
     reach += 8.0 * FLOAT_ROUNDING * (bounds.z_max + reach) + ABUFFER_HEADER(s).rounding;
-    // Depths are kept as integers that order like them, which holds from zero on.
+    // Depths are stored as integers, which order like the floats only from zero on.
     float lower = bounds.z_min > reach ? bounds.z_min - reach : 0.0;
     return uvec2(~floatBitsToUint(lower), floatBitsToUint(bounds.z_max + reach));
 }
 
-// Returns the depths of rays at which anything in the cell may be accepted.
+// Returns the depths of rays at which a fragment or a triangle of the cell may be accepted.
 uvec2 abuffer_pyramid_cell(AbufferRef s, uint view, ivec2 cell) {
     return max(abuffer_pyramid_fragments(s, view, cell), abuffer_pyramid_conservative(s, abuffer_cell(s, view, cell)));
 }

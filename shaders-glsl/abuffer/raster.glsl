@@ -1,17 +1,19 @@
-// The fragment's side of the raster builder: one instance per view, triangles pulled from the geometry.
+// Fragment side of the raster builder: finds the cell and the coverage of a fragment invocation.
 // Reads: geometry, header. Writes: nothing.
-// Without attachments no layers are needed: the view travels as a varying.
+// There is one instance per view, and shaders fetch triangles from the geometry themselves. Draws have no
+// attachments and so no layers: the view is a varying.
 #ifndef ABUFFER_RASTER_GLSL
 #define ABUFFER_RASTER_GLSL
 
 #include "abuffer/covered.glsl"
 
-// Returns the cell of a fragment invocation: the viewport has a border of one.
+// Returns the cell of a fragment invocation. The viewport has a border of one cell.
 ivec2 abuffer_place(vec4 frag_coord) {
     return ivec2(frag_coord.xy) - 1;
 }
 
-// Finds cell and coverage of a fragment invocation; false if the triangle does not cover the cell.
+// Finds the cell and the coverage of a fragment invocation. Returns false if the triangle does not cover the
+// cell's centre.
 bool abuffer_fragment(uint primitive, uint view, vec4 frag_coord, out uint cell, out CellCoverage coverage) {
     uint resolution = abuffer_resolution(build.structure, view);
     ivec2 place = abuffer_place(frag_coord);

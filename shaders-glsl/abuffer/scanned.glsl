@@ -1,4 +1,5 @@
-// The numbers that the scan of contiguous lists runs over: lengths become places, their sum the demand.
+// Defines the numbers over which the scan of contiguous lists runs (ads/scan.glsl): the lengths of lists
+// become places, and the sum of all lengths becomes the demand.
 // Reads, writes: lists, scratch, header.demand.
 #ifndef ABUFFER_SCANNED_GLSL
 #define ABUFFER_SCANNED_GLSL

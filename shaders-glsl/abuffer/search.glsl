@@ -1,6 +1,7 @@
-// Searches the lists of one cell for the nearest fragment that a ray hits within it.
-// Reads: bounds, lists, nodes, data, geometry (plane acceptance of ids). Writes: nothing.
-// Source: MMRT section 3.4. The bucket range, the order and the early ends only skip fragments that
+// Searches the lists of one cell for the nearest fragment that a ray hits within the cell.
+// Reads: header, bounds, lists, nodes, data, and geometry where fragments name their triangle. Writes:
+// header.corrupted.
+// Source: MMRT section 3.4. The range of buckets, the order and the early ends only leave out fragments that
 // the acceptance would refuse, so hits do not depend on them.
 #ifndef ABUFFER_SEARCH_GLSL
 #define ABUFFER_SEARCH_GLSL
@@ -16,23 +17,24 @@
 
 #define ABUFFER_INFINITY uintBitsToFloat(0x7F800000u)
 
-// Search of a cell, which can stop between two nodes.
+// State of the search of a cell. The search can pause between two nodes.
 struct AbufferSearch {
     uint view;
     ivec2 place;          // column and row in the view
     uint cell;            // running index over all views
     float t_low;          // the ray's interval in the cell, widened by the errors of its ends
     float t_high;
-    vec2 z;               // the ray's depths there, the nearest first
-    float rounding;       // how far rounding may move them, metres
+    vec2 z;               // the ray's depths in the cell, metres, the smaller one first
+    float rounding;       // how far rounding may move these depths, metres
+    // place of the current bucket in the order of the search
     uint bucket;
-    uint link;            // next node, of the bucket or of the conservative list; 0: begin the bucket
-    bool in_bucket;       // the bucket has been begun
-    bool in_conservative;       // the conservative list has been begun
+    uint link;            // link of the next node in the bucket's list or the conservative list
+    bool in_bucket;       // true if the bucket's list has been begun
+    bool in_conservative;       // true if the conservative list has been begun
 };
 
-// True if the depths that a fragment represents overlap those of the ray: [low, high] is the interval
-// searched.
+// True if the depths that a fragment represents overlap those of the ray. Only fragments whose depth z is in
+// [low, high] can.
 bool abuffer_intersects(AbufferRef s, AbufferSearch search, uint primitive, float z, float low, float high) {
     if (ABUFFER_TEST != ABUFFER_TEST_DEPTHS) {
         return z >= low && z <= high;
@@ -47,7 +49,8 @@ bool abuffer_intersects(AbufferRef s, AbufferSearch search, uint primitive, floa
     return depths.x <= search.z.y && depths.y >= search.z.x;
 }
 
-// Searches the fragments of a cell. Returns true if the work budget ended before the search did.
+// Searches the fragments of a cell. `ordered` says that lists are sorted. Returns true if the work budget
+// ended before the search.
 bool abuffer_search(AbufferRef s, Ray ray, float origin_z, float direction_z, bool ordered, inout AbufferSearch search,
     inout TraceState state, inout uint work) {
     float near_z = search.z.x;
@@ -61,7 +64,7 @@ bool abuffer_search(AbufferRef s, Ray ray, float origin_z, float direction_z, bo
     PlaneCell plane_cell = PlaneCell(ABUFFER_HEADER(s).eye, abuffer_cell_slope(s, search.view), 0.0, ABUFFER_PLANE_REACH,
         false);
     bool away = direction_z >= 0.0;
-    // Low and high are the depths at the cell's centre that an accepted fragment can have.
+    // An accepted fragment has a depth in [low, high] at the cell's centre.
     float low = near_z;
     float high = far_z;
     if (ABUFFER_HAS_EXTENT) {
@@ -80,7 +83,7 @@ bool abuffer_search(AbufferRef s, Ray ray, float origin_z, float direction_z, bo
         first = bucket_of(low, bounds.z_min, bounds.scale, ABUFFER_BUCKETS);
         last = bucket_of(high, bounds.z_min, bounds.scale, ABUFFER_BUCKETS);
     }
-    // The limits keep NaN bounds from leading beyond the lists of the cell.
+    // The limits keep bounds that are NaN from leading to the lists of other cells.
     first = min(first, ABUFFER_BUCKETS - 1u);
     last = clamp(last, first, ABUFFER_BUCKETS - 1u);
     bool backward = !away && ABUFFER_HAS_FAR_END;
@@ -101,11 +104,11 @@ bool abuffer_search(AbufferRef s, Ray ray, float origin_z, float direction_z, bo
             abuffer_seek(s, list, low, high, cursor, state, work);
         }
         while (true) {
-            // The next fragment is found in a loop of its own: rays that run together test theirs together.
+            // A loop of its own finds the next fragment, so that rays that run together also test together.
             bool found = false;
             uint current = 0u;
             float z = 0.0;
-            // A fragment without an id cannot be the triangle that is excluded.
+            // A fragment without an id cannot be the triangle that the ray excludes.
             uint primitive = PRIMITIVE_UNKNOWN;
             while (!found && cursor.link != 0u && work < work_budget) {
                 work++;
@@ -119,8 +122,8 @@ bool abuffer_search(AbufferRef s, Ray ray, float origin_z, float direction_z, bo
                 trace_log_visit(STEP_ENTRY, current, 0u, 0u, z, z);
                 if (end_early && (backward ? z < low : z > high)) {
                     trace_log(STEP_SKIP, SKIP_PAST, 0u, 0u, low, high);
-                    // If lists are read from the far side to the near one, the following buckets hold smaller
-                    // depths.
+                    // If the list is read in the order in which the ray meets depths, the remaining buckets
+                    // lie beyond the interval, too.
                     if (backward == !away && !ABUFFER_PAGED) {
                         return false;
                     }
@@ -155,7 +158,8 @@ bool abuffer_search(AbufferRef s, Ray ray, float origin_z, float direction_z, bo
                     test_plane(plane_cell, ray, primitive, search.t_low, search.t_high, state.best);
                 }
             } else {
-                // The hit lies where the ray passes the fragment's depth, within the cell.
+                // The hit is where the ray has the fragment's depth, but within the ray's interval in the
+                // cell.
                 float t = clamp((z - origin_z) / direction_z, search.t_low, search.t_high);
                 t = direction_z == 0.0 ? search.t_low : t;
                 abuffer_accept_depth(s, ray, primitive, current, z, t, state.best);

@@ -1,7 +1,7 @@
-// Moves the begin of a sorted list towards the depths that are searched, where the storage allows it.
-// Reads: lists, nodes. Writes: nothing.
-// Source: MMRT section 4, comparison of storages: long contiguous lists are bisected, and all
-// storages but singly linked lists are skipped where they end before the ray's depths begin.
+// Moves the beginning of a sorted list towards the depths that are searched, where the storage allows it.
+// Reads: lists, nodes. Writes: header.corrupted.
+// Source: MMRT section 4, comparison of storages. A long contiguous list is bisected. Any other list that can
+// be read from either end is left out if it ends before the ray's depths begin.
 #ifndef ABUFFER_SEEK_GLSL
 #define ABUFFER_SEEK_GLSL
 
@@ -9,7 +9,7 @@
 #include "contract/trace_state.glsl"
 #include "abuffer/lists.glsl"
 
-// Returns the depth of a node, counted and logged as an entry of its list.
+// Returns the depth of a node. The read is counted and logged as the read of a list entry.
 float abuffer_probe(AbufferRef s, uint link, inout TraceState state, inout uint work) {
     work++;
     state.entries++;
@@ -18,8 +18,9 @@ float abuffer_probe(AbufferRef s, uint link, inout TraceState state, inout uint 
     return z;
 }
 
-// Finds the first node of a contiguous list, read forward, with z >= low, or the last one, read backward,
-// with z <= high; 0 if there is none. At most 32 steps.
+// Bisects a contiguous list, in at most 32 steps. Returns the link of the first node with z >= low if the
+// list is read forward, of the last node with z <= high if it is read backward, and 0 if there is no such
+// node.
 uint abuffer_halve(AbufferRef s, AbufferCursor cursor, float low, float high, inout TraceState state, inout uint work) {
     uint first = min(cursor.link, cursor.last);
     uint end = max(cursor.link, cursor.last) + 1u;
@@ -40,10 +41,10 @@ uint abuffer_halve(AbufferRef s, AbufferCursor cursor, float low, float high, in
     return left < end ? left : 0u;
 }
 
-// Moves the begin of a sorted list. Only nodes outside [low, high] are skipped.
+// Moves the beginning of a sorted list. Only nodes whose depth is outside [low, high] are skipped.
 void abuffer_seek(AbufferRef s, uint list, float low, float high, inout AbufferCursor cursor, inout TraceState state,
     inout uint work) {
-    // With buckets, the cell's bounds were tested before.
+    // With buckets, the bounds of the cell were tested before.
     if (cursor.link == 0u || ABUFFER_BUCKETED || !ABUFFER_HAS_FAR_END) {
         return;
     }

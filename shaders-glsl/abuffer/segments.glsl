@@ -1,7 +1,8 @@
-// The segments of a ray, in order: those in the camera's view, then those in the faces of the cube.
+// Cuts a ray into segments, in order: those in the camera's view, then those in the faces of the cube.
 // Reads: header. Writes: nothing.
-// Source: MMRT section 3.4. Every view that sees a segment is marched and the nearest hit counts. The camera
-// comes first: a hit there ends the traversal of the faces early. With ABUFFER_SNAPS views are switched as published.
+// Source: MMRT section 3.4. Every view that sees a segment is marched, and the nearest hit counts. The
+// camera's view comes first, because a hit there ends the traversal of the faces early. With ABUFFER_SNAPS
+// views are switched as published.
 #ifndef ABUFFER_SEGMENTS_GLSL
 #define ABUFFER_SEGMENTS_GLSL
 
@@ -9,30 +10,31 @@
 #include "ads/march_cube.glsl"
 #include "abuffer/views.glsl"
 
-// Stages of a ray: the camera's segments before and behind the near region, the near region if no face cuts
-// it out, and the faces.
+// Stages of a ray: its segments in the camera's view before and behind the near region; the near region,
+// where no faces cut it out; and the faces.
 #define ABUFFER_STAGE_BEFORE 0u
 #define ABUFFER_STAGE_BEHIND 1u
 #define ABUFFER_STAGE_NEAR 2u
 #define ABUFFER_STAGE_FACES 3u
 
-// Value in place of the number of a view: the face in which the segment begins.
+// Value in place of a view's number: the segment lies in the face in which it begins.
 #define ABUFFER_IN_FACES 8u
 
 #define ABUFFER_SEGMENT_LIMIT (SEGMENT_LIMIT + ABUFFER_STAGE_FACES)
 
 // Progress of a ray through its segments.
 struct AbufferProgress {
-    uint stage;           // the next one
+    uint stage;           // the next stage, ABUFFER_STAGE_*
     float t;              // where the next segment in a face begins
 };
 
+// Returns the progress of a ray whose part within the bounds of the geometry is `clip`.
 AbufferProgress abuffer_progress_begin(vec2 clip) {
     return AbufferProgress(ABUFFER_HAS_CAMERA ? ABUFFER_STAGE_BEFORE : ABUFFER_STAGE_FACES, clip.x);
 }
 
-// Returns the part of `clip` in which the ray lies in a view's pyramid; empty if x > y. `wider` is the number
-// of cells by which the pyramid is widened, half of them on each side.
+// Returns the part of `clip` in which the ray lies in a view's pyramid; it is empty if x > y. `wider` is the
+// number of cells by which the pyramid is widened, half of them on each side.
 vec2 abuffer_pyramid_interval(AbufferRef s, uint view, vec3 origin, vec3 direction, vec2 clip, int wider) {
     vec3 o = abuffer_view_from_world(s, origin, view);
     vec3 d = abuffer_view_from_world(s, direction, view);
@@ -57,7 +59,7 @@ vec2 abuffer_pyramid_interval(AbufferRef s, uint view, vec3 origin, vec3 directi
     return interval;
 }
 
-// Returns the segment of a stage before the faces; empty if x > y.
+// Returns the t interval of the segment of a stage before the faces; it is empty if x > y.
 vec2 abuffer_stage_interval(AbufferRef s, vec3 origin, vec3 direction, vec2 near, vec2 clip, uint stage) {
     bool has_near = near.x <= near.y;
     if (stage == ABUFFER_STAGE_NEAR) {
@@ -73,7 +75,8 @@ vec2 abuffer_stage_interval(AbufferRef s, vec3 origin, vec3 direction, vec2 near
     return interval;
 }
 
-// Returns the view in which a ray goes on at t, or SEGMENT_NEAR; ABUFFER_IN_FACES if there is none.
+// Returns the view in which a ray goes on at t. In the near region this is SEGMENT_NEAR; if no view is left,
+// it is ABUFFER_IN_FACES.
 uint abuffer_view_at(AbufferRef s, vec3 origin, vec3 direction, vec2 near, float t, uint stage) {
     if (near.x <= t && t < near.y) {
         return SEGMENT_NEAR;
@@ -87,8 +90,8 @@ uint abuffer_view_at(AbufferRef s, vec3 origin, vec3 direction, vec2 near, float
     return ABUFFER_HAS_CUBE ? face_of(origin + t * direction) : ABUFFER_IN_FACES;
 }
 
-// Returns the t at which a ray goes on that has been followed through a view up to `end`: half a cell outside
-// the view, or at the near region if that begins before.
+// Returns the t at which a ray goes on that was followed through a view up to `end`. The ray is then half a
+// cell outside the view, or enters the near region if that begins before.
 float abuffer_snapped(AbufferRef s, vec3 origin, vec3 direction, vec2 near, vec2 clip, uint view, float end) {
     if (view == SEGMENT_NEAR || !(end < clip.y)) {
         return end;
@@ -98,9 +101,9 @@ float abuffer_snapped(AbufferRef s, vec3 origin, vec3 direction, vec2 near, vec2
     return max(end, near_ahead ? min(outside.y, near.x) : outside.y);
 }
 
-// Finds the next segment as abuffer_next_interval, but searches a ray in one view at a time: the camera's if
-// it sees the ray's start or the point where the ray leaves the near region, then the faces that the ray
-// passes. A view ends half a cell before its side.
+// Finds the next segment as abuffer_next_interval does, but follows the ray in one view at a time. The
+// camera's view is first, if it sees the ray's start or the point where the ray leaves the near region. After
+// it come the faces that the ray passes. A segment ends half a cell before the side of its view.
 bool abuffer_next_snapped_interval(AbufferRef s, vec3 origin, vec3 direction, vec2 near, vec2 clip, float best,
     inout AbufferProgress progress, out vec2 ends, out uint view) {
     for (uint segments = 0u; segments < ABUFFER_SEGMENT_LIMIT; segments++) {
@@ -125,8 +128,9 @@ bool abuffer_next_snapped_interval(AbufferRef s, vec3 origin, vec3 direction, ve
     return false;
 }
 
-// Finds the next segment that may hold something nearer than `best`: its ends and its view, or
-// ABUFFER_IN_FACES if the face is still to be found and the segment ends with it; false if none is left.
+// Finds the ends and the view of the next segment that may hold something nearer than `best`. If the view is
+// ABUFFER_IN_FACES, abuffer_segment still has to find the face and where the ray leaves it. Returns false if
+// no segment is left.
 bool abuffer_next_interval(AbufferRef s, vec3 origin, vec3 direction, vec2 near, vec2 clip, float best,
     inout AbufferProgress progress, out vec2 ends, out uint view) {
     if (ABUFFER_SNAPS) {
@@ -150,7 +154,8 @@ bool abuffer_next_interval(AbufferRef s, vec3 origin, vec3 direction, vec2 near,
     return true;
 }
 
-// Returns the segment with these ends in that view.
+// Returns the segment with these ends in that view. With ABUFFER_IN_FACES it finds the face, and cuts the
+// segment where the ray leaves the face.
 Segment abuffer_segment(vec3 origin, vec3 direction, vec2 near, vec2 ends, uint view, inout AbufferProgress progress) {
     Segment segment = segment_at(origin, direction, ends.x, ends.y, near);
     if (view == ABUFFER_IN_FACES) {

@@ -1,9 +1,9 @@
 // Skips blocks of cells that hold nothing at a ray's depths, in the exact march.
 // Reads: header, bounds. Writes: nothing.
 // Source: not in the paper; DIRT section 4.2.1 skips tiles.
-// A fragment's plane represents the surface only within the ray's interval in its cell, so the searched cells and the
-// intervals must be the same with skipping and without. Only cells are skipped whose fragments the search would
-// refuse one by one.
+// The plane of a fragment represents the surface only within the ray's interval in the fragment's cell. So a
+// march with skips must search the same cells, with the same intervals, as a march without. It leaves out
+// only cells whose fragments the search would refuse one by one.
 #ifndef ABUFFER_SKIP_GLSL
 #define ABUFFER_SKIP_GLSL
 
@@ -11,18 +11,18 @@
 #include "abuffer/pyramid.glsl"
 #include "abuffer/traversal.glsl"
 
-// Returns the depths of a ray over [t_low, t_high], widened by more than the rounding that a search allows
-// for.
+// Returns the smallest and the largest depth of a ray over [t_low, t_high], widened by more than the rounding
+// for which a search allows.
 vec2 abuffer_skip_depths(float origin_z, float direction_z, float t_low, float t_high) {
     vec2 z = origin_z + vec2(t_low, t_high) * direction_z;
     float rounding = 16.0 * FLOAT_ROUNDING * (abs(origin_z) + max(abs(t_low), abs(t_high)) * abs(direction_z));
-    // Negative depths count as zero.
+    // Depths in blocks begin at zero, so an upper end below zero counts as zero.
     return vec2(min(z.x, z.y) - rounding, max(max(z.x, z.y) + rounding, 0.0));
 }
 
-// Skips the cell that a traversal is at, and all cells in the largest block around it that may be skipped.
-// False if the cell must be searched; otherwise `more` tells whether the traversal goes on. Each level that
-// is tested is a unit of work; a view has at most 14.
+// Skips the cell that a traversal is at, with all cells of the largest block around it that may be skipped.
+// Returns false if the cell must be searched; otherwise `more` tells whether the traversal goes on. Each
+// level that is tested is a unit of work; a view has at most 14 levels.
 bool abuffer_skip(AbufferRef s, inout AbufferTraversal traversal, AbufferSearch search, float best, inout uint work,
     out bool more) {
     more = true;
@@ -40,12 +40,14 @@ bool abuffer_skip(AbufferRef s, inout AbufferTraversal traversal, AbufferSearch 
     while (true) {
         work++;
         MarchSkip over = march_skip_over_block(traversal.cells, level.level);
-        // Without skipping the traversal ends at the first cell that begins behind the best hit.
+        // A march without skips ends at the first cell that begins behind the best hit, so no block may lead
+        // past it.
         if ((over.step_x || over.step_y) && over.t_out > best) {
             break;
         }
-        // Intervals in cells are widened by the errors of their ends, of which only those of the block are
-        // known here.
+        // A search widens the ray's interval in a cell by the errors of its ends. Only the errors at the ends
+        // of the block are known here. Whether this widening also bounds the errors in between is tested
+        // below.
         float widening = 1.6e-5 * (max(abs(traversal.cells.t_in), abs(over.t_out)) + reach) + over.error_out
             + traversal.cells.error_in;
         vec2 depths = abuffer_skip_depths(traversal.origin.z, traversal.direction.z, traversal.cells.t_in - widening,
@@ -77,7 +79,8 @@ bool abuffer_skip(AbufferRef s, inout AbufferTraversal traversal, AbufferSearch 
             return true;
         }
     }
-    // The traversal goes on to the next cell, as without skipping.
+    // Rounding forbids to leave the block in one step. But the current cell may be skipped if its interval is
+    // within the interval that was tested; the traversal then goes on to the next cell, as without skips.
     if (!(traversal.cells.t_out + traversal.cells.error_out <= skip.t_out + slack)) {
         return false;
     }

@@ -1,5 +1,6 @@
-// The nodes of a contiguous list, and the links of a linked one, for the shared sorts: by depth, ties by payload. The
-// backward links are renewed.
+// Defines the lists of an A-buffer for the shared sorts of ads/sort_lists.glsl: the nodes of a contiguous
+// list, and the links of a linked list. Lists are sorted by depth, at equal depth by payload. Backward links
+// are set anew.
 // Reads, writes: lists, nodes, data, scratch, header.long_demand, header.unsorted.
 // Source: MMRT section 3.3, reorder pass, whose private array cuts longer lists short.
 #ifndef ABUFFER_SORTED_GLSL
@@ -11,9 +12,9 @@
 #include "ads/build_constants.glsl"
 
 #define SORT_HEADER(s) ABUFFER_HEADER(s)
-// Table of long lists, behind the sums of the scan.
+// The table of long lists lies in the scratch pool, behind the sums of the scan.
 #define SORT_WORD(s, place) ABUFFER_POOL(s, scratch)[abuffer_scan_words(s) + (place)]
-// The limit is that of nodes, because exchanging two nodes takes a loop over their words.
+// The limit is that of lists of nodes, because exchanging two nodes takes a loop over their words.
 #define SORT_LIMIT NODE_SORT_LIMIT
 #define SORT_LONG_LIMIT NODE_SORT_LONG_LIMIT
 #define SORT_LINKED (!ABUFFER_CONTIGUOUS)
@@ -23,8 +24,8 @@ bool sort_is_possible(AbufferRef s) { return ABUFFER_HEADER(s).demand <= ABUFFER
 
 uint sort_list_count(AbufferRef s) { return abuffer_list_count(s); }
 
-// Structure of the list that is being sorted, since the functions of the shared sort know elements by their
-// number.
+// Structure and first link of the list that is being sorted. The functions of the shared sort know an element
+// only by its number in the list.
 AbufferRef sorted_structure;
 uint sorted_from;
 

@@ -1,6 +1,7 @@
-// The surface at a hit of the A-buffer.
-// Reads: the scene (payload index, and fragments that emit) or the fragment's own words (the others). Writes: nothing.
-// With payload index the hit names a triangle and the barycentrics of the point on its plane.
+// Finds the surface at a hit of the A-buffer.
+// Reads: the scene, with payload index and for fragments that emit; otherwise the fragment's words. Writes:
+// nothing.
+// With payload index, a hit names a triangle, and the barycentrics of the hit point on the triangle's plane.
 #ifndef ABUFFER_SURFACE_GLSL
 #define ABUFFER_SURFACE_GLSL
 
@@ -9,7 +10,7 @@
 #include "abuffer/attributes.glsl"
 #include "abuffer/stored_plane.glsl"
 
-// Returns the size of a cell at a point, metres: details below it are lost in the A-buffer.
+// Returns the width of a cell at a point, metres. The A-buffer loses smaller details.
 float abuffer_footprint(AbufferRef s, vec3 position) {
     vec3 p = abs(position - ABUFFER_HEADER(s).eye);
     float cube = ABUFFER_HAS_CUBE ? abuffer_cell_slope(s, 0u) : 0.0;

@@ -1,6 +1,6 @@
-// Follows a ray through the views' cells and searches each cell's lists.
+// Follows a ray through the cells of the views, and searches the lists of each cell.
 // Reads: all pools, geometry. Writes: header.corrupted.
-// Source: MMRT section 3.4; the exact march replaces its fixed steps unless asked for.
+// Source: MMRT section 3.4. The exact march replaces its fixed steps unless an option asks for these.
 #ifndef ABUFFER_TRACE_GLSL
 #define ABUFFER_TRACE_GLSL
 
@@ -12,12 +12,15 @@
 #include "abuffer/skip.glsl"
 #include "abuffer/listed.glsl"
 
+// Traces a ray, or goes on with a ray that paused, and keeps the best hit in the state. With `any_hit` the
+// first hit that is found is enough. Returns TRACE_*.
 uint abuffer_trace(AbufferRef s, Ray ray, inout TraceState state, bool any_hit) {
     bool ordered = ABUFFER_SORT != 0u && ABUFFER_HEADER(s).unsorted == 0u;
     precise vec3 origin = ray.origin - abuffer_eye(s);
     vec3 direction = ray.direction;
     vec2 near = near_region_interval(origin, direction, ABUFFER_HEADER(s).near_size);
-    // If triangles are tested, a hit counts by its t alone, wherever rounding has moved it.
+    // If rays test triangles, a hit counts by its t alone. Rounding may have moved the hit out of the ray's
+    // interval in its cell, by at most `slack`.
     float reach = ABUFFER_HEADER(s).reach;
     float slack = ABUFFER_CONSERVATIVE ? hit_slack(origin, direction, reach) : 0.0;
     bool distant = ABUFFER_CONSERVATIVE && largest_coordinate(origin) > ORIGIN_LIMIT * reach;
@@ -40,7 +43,7 @@ uint abuffer_trace(AbufferRef s, Ray ray, inout TraceState state, bool any_hit) 
             }
         } else if (!abuffer_next_interval(s, origin, direction, near, clip, state.best.t + slack, traversal.progress,
             ends, view)) {
-            // Nothing behind the best hit can be nearer.
+            // No segment is left that begins before the best hit.
             break;
         }
         traversal.segment = abuffer_segment(origin, direction, near, ends, view, traversal.progress);
@@ -72,7 +75,7 @@ uint abuffer_trace(AbufferRef s, Ray ray, inout TraceState state, bool any_hit) 
                 state.cells++;
                 trace_log_visit(STEP_CELL, traversal.segment.face, uint(traversal.searched.x), uint(traversal.searched.y),
                     search.t_low, search.t_high);
-                // A search in progress goes on: only cells whose search has not begun are skipped.
+                // Only a cell whose search has not begun may be skipped.
                 if (ABUFFER_STEP == ABUFFER_STEP_SKIPS && !searching
                     && abuffer_skip(s, traversal, search, state.best.t + slack, work, more)) {
                     continue;
@@ -111,6 +114,8 @@ uint abuffer_status(AbufferRef s) {
     return ABUFFER_HEADER(s).status;
 }
 
+// Returns the hit that the best hit of a trace represents. With ABUFFER_IDS a hit on a fragment gets the id
+// of its triangle.
 Hit abuffer_hit(AbufferRef s, Hit best) {
     Hit hit = best;
     if (ABUFFER_IDS != 0u && hit.primitive == PRIMITIVE_UNKNOWN) {

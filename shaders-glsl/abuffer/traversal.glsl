@@ -1,7 +1,8 @@
-// The position of a ray's traversal through the cells of a view, and how it is saved between two dispatches.
+// Holds the position of a ray's traversal through the cells of a view, and saves it between two dispatches.
 // Reads: header. Writes: nothing.
-// cursor: 0 flags, 1 and 2 ends of the segment, 3 cell, 4 and 5 entry and its error, 6 next node of the list,
-// 7 the cell being searched, or the sample, or the place in the near-region list.
+// Words of the cursor: 0 flags; 1 and 2 the ends of the segment; 3 the cell of the march; 4 and 5 t at the
+// entry into that cell, and its error; 6 the next node of the list; 7 the cell being searched, or the number
+// of the sample, or the place in the near-region list.
 #ifndef ABUFFER_TRAVERSAL_GLSL
 #define ABUFFER_TRAVERSAL_GLSL
 
@@ -11,7 +12,7 @@
 #include "abuffer/search.glsl"
 #include "abuffer/segments.glsl"
 
-// Fields of the flags.
+// Fields of the cursor's flags: first bit and width (contract/bits.glsl).
 #define ABUFFER_CURSOR_STARTED 0, 1
 #define ABUFFER_CURSOR_SEARCHING 1, 1
 #define ABUFFER_CURSOR_VIEW 2, 3
@@ -25,23 +26,23 @@
 struct AbufferTraversal {
     Segment segment;
     AbufferProgress progress;
-    vec3 origin;          // in the view
+    vec3 origin;          // in the frame of the view, metres
     vec3 direction;
     CellMarch cells;
     SampleMarch samples;
-    bool entered;            // the exit of the current cell is still to be found
-    bool resumed;         // in that cell, with some of its neighbours
-    uint place;           // sample, or entry of the near-region list
-    ivec2 searched;       // the cell being searched
+    bool entered;            // true while the exit of the march's cell is still to be found
+    bool resumed;         // true if the ray paused in that cell, after some of its neighbours
+    uint place;           // number of the sample, or place in the near-region list
+    ivec2 searched;       // the cell being searched: that of the march, or a neighbour
 };
 
-// Moves the traversal to the cell of its march.
+// Makes the cell of the march the cell to search; its exit is still to be found.
 void abuffer_enter_cell(inout AbufferTraversal traversal) {
     traversal.searched = traversal.cells.cell;
     traversal.entered = true;
 }
 
-// Finds the exit of the cell that a traversal is at.
+// Finds the exit from the cell of the march, if it is still to be found.
 void abuffer_find_exit(inout AbufferTraversal traversal) {
     if (!ABUFFER_FOLLOWS_CELLS || !traversal.entered) {
         return;
@@ -91,17 +92,17 @@ void abuffer_save(AbufferTraversal traversal, AbufferSearch search, bool searchi
     state.cursor[7] = in_cells ? bits_of_cell(traversal.searched) : traversal.place;
 }
 
-// Restores the segment in which a paused ray was.
+// Restores the segment in which a ray paused.
 void abuffer_restore_progress(TraceState state, vec2 clip, out AbufferProgress progress, out vec2 ends, out uint view) {
     uint flags = state.cursor[0];
     view = bits_get(flags, ABUFFER_CURSOR_VIEW);
     ends = vec2(uintBitsToFloat(state.cursor[1]), uintBitsToFloat(state.cursor[2]));
-    // Before the faces, none of the faces has been traversed.
+    // A ray that paused in the camera's view has not traversed any face yet.
     bool in_faces = view != ABUFFER_CAMERA && ABUFFER_HAS_CUBE;
     progress = AbufferProgress(bits_get(flags, ABUFFER_CURSOR_STAGE), in_faces ? ends.y : clip.x);
 }
 
-// Restores the place of the ray in that segment, whose traversal has begun.
+// Restores the place of a paused ray in its segment, after the traversal of that segment has begun.
 void abuffer_restore(TraceState state, inout AbufferTraversal traversal, out AbufferSearch search) {
     uint flags = state.cursor[0];
     traversal.place = state.cursor[7];
@@ -120,7 +121,7 @@ void abuffer_restore(TraceState state, inout AbufferTraversal traversal, out Abu
     search.link = state.cursor[6];
 }
 
-// Prepares the search of the cell that the traversal is at; `begun` if the search goes on.
+// Prepares the search of the cell that the traversal is at. `begun` says that a paused search goes on.
 void abuffer_begin_search(AbufferRef s, bool begun, inout AbufferTraversal traversal, inout AbufferSearch search) {
     if (!begun) {
         search.in_bucket = false;
@@ -143,7 +144,7 @@ void abuffer_begin_search(AbufferRef s, bool begun, inout AbufferTraversal trave
         + 8.0 * FLOAT_ROUNDING * (abs(traversal.origin.z) + max(abs(search.t_low), abs(search.t_high)) * abs(traversal.direction.z));
 }
 
-// Goes to the next cell; false at the end of the segment.
+// Moves the traversal to the next cell. Returns false at the end of the segment.
 bool abuffer_next_cell(inout AbufferTraversal traversal) {
     if (ABUFFER_FOLLOWS_CELLS) {
         if (march_take_neighbour(traversal.cells, traversal.searched)) {

@@ -1,4 +1,4 @@
-// The A-buffer's records and options.
+// Records and options of the A-buffer.
 // Reads, writes: nothing.
 // Source: Vardis, Vasilakis, Papaioannou 2016 (MMRT), sections 3.2 and 3.3, table 2.
 #ifndef ABUFFER_TYPES_GLSL
@@ -7,7 +7,7 @@
 #include "contract/types.glsl"
 #include "abuffer/constants.glsl"
 
-// Constant ids 10 to 29 belong to the A-buffer.
+// Constant ids 10 to 29 belong to the A-buffer. Values with names are in abuffer/constants.glsl.
 layout(constant_id = 10) const uint ABUFFER_BUCKETS = 4u;
 layout(constant_id = 11) const uint ABUFFER_MARCH = ABUFFER_MARCH_EXACT;
 layout(constant_id = 12) const uint ABUFFER_ACCEPT = ABUFFER_ACCEPT_PLANE;
@@ -20,17 +20,17 @@ layout(constant_id = 18) const uint ABUFFER_INLINE = 0u;
 layout(constant_id = 19) const uint ABUFFER_PAGE = 4u;
 layout(constant_id = 20) const uint ABUFFER_VIEWS = ABUFFER_VIEWS_CUBE;
 layout(constant_id = 21) const uint ABUFFER_SINGLE_LAYER = 0u;
-// 1 if fragments keep their triangle behind a payload without it.
+// 1 if a fragment stores its triangle behind a payload that does not contain it.
 layout(constant_id = 22) const uint ABUFFER_IDS = 0u;
-// 1 if each ray places its samples at an offset of its own within their steps.
+// 1 if each ray moves its samples within their steps by an offset of its own.
 layout(constant_id = 23) const uint ABUFFER_JITTER = 0u;
 layout(constant_id = 24) const uint ABUFFER_VIEW_SWITCHING = ABUFFER_SWITCH_EXACT;
-// ABUFFER_BOUNDS_*: depth bounds of a cell before its fragments are stored, of storages with buckets.
+// Source of a cell's depth bounds before its fragments are stored, for storages with buckets.
 layout(constant_id = 25) const uint ABUFFER_BOUNDS_OF = ABUFFER_BOUNDS_GEOMETRY;
 
-// Steps of rays and the candidates that they test, ABUFFER_STEP_* and ABUFFER_TEST_*. Each makes up most of a
-// trace's code, so that modules that trace are compiled once for each (permutations.txt); in other modules
-// the options decide.
+// The kind of step (ABUFFER_STEP_*) and of candidate (ABUFFER_TEST_*) make up most of a trace's code. So
+// modules that trace are compiled once for each pair, given as ABUFFER_STEPS and ABUFFER_TESTS
+// (permutations.txt); in other modules the options decide.
 #ifdef ABUFFER_STEPS
 const uint ABUFFER_STEP = ABUFFER_STEPS;
 #else
@@ -44,79 +44,83 @@ const uint ABUFFER_TEST = ABUFFER_COVERAGE == ABUFFER_COVERAGE_CONSERVATIVE ? AB
     : (ABUFFER_ACCEPT == ABUFFER_ACCEPT_PLANE ? ABUFFER_TEST_PLANES : ABUFFER_TEST_DEPTHS);
 #endif
 
-// True if cells keep every triangle that reaches into them: triangles are tested, not planes, and no hit is
-// lost.
+// True if cells keep every triangle that reaches into them, so that rays test triangles instead of planes and
+// no hit is lost.
 const bool ABUFFER_CONSERVATIVE = ABUFFER_TEST == ABUFFER_TEST_TRIANGLES;
 
-// True if cells keep triangles outside their centres.
+// True if rays test planes, and conservative lists keep triangles that have no fragment or are seen edge-on.
+// Cells have conservative lists in this case and if ABUFFER_CONSERVATIVE is true.
 const bool ABUFFER_EDGE_ON = ABUFFER_TEST == ABUFFER_TEST_PLANES && ABUFFER_COVERAGE == ABUFFER_COVERAGE_EDGE_ON;
 const bool ABUFFER_HAS_CONSERVATIVE = ABUFFER_CONSERVATIVE || ABUFFER_EDGE_ON;
 
-// True if rays visit the cells that they cross; otherwise they are sampled.
+// True if rays visit every cell that they cross, false if they take samples.
 const bool ABUFFER_FOLLOWS_CELLS = ABUFFER_STEP != ABUFFER_STEP_SAMPLES;
 
-// True if a ray passes from view to view as published.
+// True if a ray is followed in one view at a time, as published.
 const bool ABUFFER_SNAPS = ABUFFER_VIEW_SWITCHING == ABUFFER_SWITCH_SNAP;
 
-// Views that are drawn.
+// Views that are built.
 const bool ABUFFER_HAS_CUBE = (ABUFFER_VIEWS & ABUFFER_VIEWS_CUBE) != 0u;
 const bool ABUFFER_HAS_CAMERA = (ABUFFER_VIEWS & ABUFFER_VIEWS_CAMERA) != 0u;
 
 // State and sizes of one A-buffer. Shared, 248 bytes.
 struct AbufferHeader {
     uint status;          // STATUS_*; without STATUS_COMPLETE traces answer "not ready"
-    uint demand;          // fragments found by the build, or pages begun for them, also those beyond the capacity
-    uint capacity;        // fragments or pages the pools hold
+    // fragments that the build found, or pages that it began,
+    uint demand;          // also those beyond the capacity
+    uint capacity;        // fragments or pages that the pools hold
     uint near_demand;     // triangles that intersect the near region
     uint near_capacity;   // triangles that the near-region list holds
-    uint unsorted;        // lists longer than the sort passes sort
+    uint unsorted;        // lists too long for the sort passes
     uint corrupted;       // list entries with an invalid index
     uint resolution;      // cells along a side of a face, border not counted
-    uint samples;         // marching samples per face, ABUFFER_MARCH_SAMPLES only
-    float thickness;      // metres, ABUFFER_ACCEPT_THICKNESS only
-    float thickness_per_reach; // what is added to it, over the reach; zero where it is given
-    float near_per_reach; // `near_size` over the reach
-    float rounding_per_reach; // `rounding` over the reach
-    float widest;         // side of a cell at a depth of 1, of the widest view
+    uint samples;         // samples per segment at most, ABUFFER_MARCH_SAMPLES only
+    float thickness;      // metres: how far behind a fragment a ray hits it, ABUFFER_ACCEPT_THICKNESS only
+    float thickness_per_reach; // summand of `thickness`, divided by `reach`; 0 if the thickness is given
+    float near_per_reach; // `near_size` divided by `reach`
+    float rounding_per_reach; // `rounding` divided by `reach`
+    float widest;         // width of a cell at a depth of 1, in the view with the widest cells
     float near_size;      // metres: half side of the near region
     uint long_demand;     // lists too long for one dispatch of the sort
     vec3 eye;             // metres relative to the frame origin: common centre of the faces
     uint long_capacity;   // long lists that the scratch holds
-    vec3 lower;           // lower corner of the geometry relative to the eye, metres
-    uint fragments;       // fragments found by the build, ABUFFER_STORAGE_PAGED only
-    vec3 upper;           // upper corner of the geometry relative to the eye, metres
+    vec3 lower;           // lower corner of the geometry with its margin, relative to the eye, metres
+    uint fragments;       // fragments that the build found, ABUFFER_STORAGE_PAGED only
+    vec3 upper;           // upper corner of the geometry with its margin, relative to the eye, metres
     uint camera_cells;    // columns of the camera's view, border not counted, and from bit 16 on its rows
-    // first row of the matrix that turns the camera's pyramid into the middle of `|x| <= z`, `|y| <= z`; zeros without
-    // camera
+    // first row of the matrix that turns the camera's pyramid into the middle of `|x| <= z`, `|y| <= z`;
+    // zeros without a camera
     vec3 camera_x;
     vec3 camera_y;        // second row of that matrix
     vec3 camera_z;        // third row of that matrix: depth
     uint lost;            // triangles with an area that no cell of any view keeps
-    uint triangles;       // triangles of the geometry that there are marks for
-    // triangles that conservative lists keep, also those beyond the capacity
+    uint triangles;       // triangles for which there are marks
+    // triangles put into conservative lists, also those beyond the capacity
     uint conservative_demand;
     uint conservative_capacity; // triangles that the conservative lists hold
     float reach;          // metres: largest coordinate of the geometry relative to the eye
-    float rounding;       // metres: how far rounding moves a triangle against a ray; only with conservative lists
-    uint large_demand;           // triangles with many cells of a view, also those beyond the capacity; binning only
+    float rounding;       // metres: how far rounding moves triangles; only with conservative lists
+    // triangles over many cells of a view,
+    uint large_demand;           // also those beyond the capacity; binning only
     uint large_capacity;   // triangles that the large-triangle queue holds
-    uint groups[3];       // workgroups for those triangles
-    uvec2 bounds_address; // device address of the bounds; zero with descriptors, as all that follow
+    uint groups[3];       // workgroups for these triangles
+    uvec2 bounds_address; // device address of the bounds; zero with descriptors, as all addresses below
     uvec2 lists_address;  // device address of the heads and tails of lists
     uvec2 nodes_address;  // device address of the nodes
     uvec2 data_address;   // device address of the payload
     uvec2 near_address;   // device address of the near-region list
-    uvec2 scratch_address; // device address of the scratch: sums of the scan, and long lists
+    uvec2 scratch_address; // device address of the scratch: sums of the scan, long lists
     uvec2 conservative_address; // device address of the conservative lists
 };
 
 // Depths of a cell's fragments, as far as the storage keeps them.
 struct AbufferBounds {
     bool empty;
+    // smallest and largest depth, metres
     float z_min;
     float z_max;
     float scale;          // buckets per metre
-    float extent;         // largest |depth - z| of the fragments' planes within the cell
+    float extent;         // metres: how far triangles or planes reach from their fragments within the cell
 };
 
 #endif

@@ -1,6 +1,7 @@
-// Work of the build on a triangle in a cell whose centre it covers, the same for every builder: it widens the
-// cell's bounds, counts, or stores.
-// Reads: bounds, with PAYLOAD_ATTRIBUTES the scene. Writes: bounds, or lists, nodes, data, header.demand, marks.
+// Processes a triangle in a cell whose centre it covers, the same for every builder: widens the cell's
+// bounds, counts the fragment, or stores it.
+// Reads: bounds, with PAYLOAD_ATTRIBUTES the scene. Writes: bounds, or lists, nodes, data, header.demand,
+// marks.
 // Source: MMRT section 3.3, the two geometry passes.
 #ifndef ABUFFER_VISIT_GLSL
 #define ABUFFER_VISIT_GLSL
@@ -12,12 +13,13 @@
 #include "abuffer/attributes.glsl"
 #endif
 
-// Distance behind the nearest fragment up to which a fragment is part of the same layer, as a share of its
-// depth: a few units of rounding, by which triangles that touch at a centre differ there. All passes find
-// equal depths, except those of the hardware, which may differ by as little.
+// Distance behind the nearest fragment up to which a fragment belongs to the same layer, as a share of its
+// depth. The share is a few units of rounding, by which the depths of triangles that touch at a centre differ
+// there. All passes find equal depths; only those with hardware coverage may differ, by as little.
 #define ABUFFER_LAYER_SHARE 4.8e-7
 
-// True if a triangle is not behind the kept layer of a cell, whether or not a mask cuts it out there.
+// True if a triangle is not behind the layer that a cell keeps, whether or not an alpha mask cuts it out
+// there.
 bool abuffer_in_layer(uint cell, CellCoverage coverage) {
     if (ABUFFER_SINGLE_LAYER == 0u) {
         return true;
@@ -48,6 +50,7 @@ void abuffer_store_payload(uint primitive, CellCoverage coverage, uint link) {
     }
 }
 
+// Widens the bounds of a cell by a fragment.
 void abuffer_visit_bounds(uint primitive, uint cell, CellCoverage coverage) {
     if (!abuffer_keeps(primitive, coverage)) {
         return;
@@ -60,15 +63,17 @@ void abuffer_visit_bounds(uint primitive, uint cell, CellCoverage coverage) {
     }
 }
 
+// Counts a fragment that the cell keeps.
 void abuffer_visit_count(uint primitive, uint cell, CellCoverage coverage) {
     if (abuffer_in_layer(cell, coverage) && abuffer_keeps(primitive, coverage)) {
         abuffer_count_one(build.structure, abuffer_list(cell, 0u));
     }
 }
 
+// Stores a fragment that the cell keeps, and marks its triangle.
 void abuffer_visit_store(uint primitive, uint cell, CellCoverage coverage) {
     if (!abuffer_in_layer(cell, coverage)) {
-        // The triangle is not marked, because a triangle that is behind others everywhere counts as lost.
+        // The triangle is not marked, because a triangle that lies behind others everywhere counts as lost.
         return;
     }
     abuffer_mark(build.structure, primitive, 0u);
@@ -80,7 +85,7 @@ void abuffer_visit_store(uint primitive, uint cell, CellCoverage coverage) {
     if (ABUFFER_SINGLE_LAYER != 0u) {
         float z_min;
         if (!abuffer_z_min(build.structure, cell, z_min)) {
-            // The bounds pass found nothing in this cell, so passes disagree.
+            // The bounds pass found nothing in this cell, so the passes disagree.
             atomicAdd(ABUFFER_HEADER(build.structure).corrupted, 1u);
             return;
         }
@@ -90,15 +95,15 @@ void abuffer_visit_store(uint primitive, uint cell, CellCoverage coverage) {
     } else if (ABUFFER_BUCKETED) {
         AbufferBounds bounds = abuffer_bounds(build.structure, cell);
         if (ABUFFER_BOUNDS_OF == ABUFFER_BOUNDS_BOXES) {
-            // Boxes do not tell the extent of planes.
+            // The boxes do not bound the extent of planes, which is found here.
             abuffer_widen_extent(build.structure, cell, coverage.extent);
             if (bounds.empty || z < bounds.z_min || z > bounds.z_max) {
-                // The boxes do not enclose the fragment, so passes disagree.
+                // The boxes do not enclose the fragment, so the passes disagree.
                 atomicAdd(ABUFFER_HEADER(build.structure).corrupted, 1u);
                 return;
             }
         }
-        // The bounds pass may have seen a depth that differs in the last bit.
+        // The bounds pass may have found a depth that differs in the last bit.
         z = clamp(z, bounds.z_min, bounds.z_max);
         bucket = bucket_of(z, bounds.z_min, bounds.scale, ABUFFER_BUCKETS);
     } else {

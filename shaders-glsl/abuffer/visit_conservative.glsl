@@ -1,7 +1,9 @@
-// Work of the build on a triangle in a cell that it reaches into, the same for every builder: with conservative
-// coverage it stores a fragment where the triangle covers the centre, and else the triangle in the conservative list;
-// with edge-on coverage, once all fragments are stored, triangles that have none or are seen edge-on.
-// Reads: geometry, header, marks. Writes: see abuffer/visit.glsl; conservative lists, header.conservative_demand.
+// Processes a triangle in a cell that it reaches into, the same for every builder. With conservative coverage
+// it stores a fragment if the triangle covers the centre, and otherwise puts the triangle into the
+// conservative list. With edge-on coverage, after all fragments are stored, it puts triangles without a
+// fragment, and triangles seen edge-on, into the conservative list.
+// Reads: geometry, header, marks. Writes: see abuffer/visit.glsl; conservative lists,
+// header.conservative_demand.
 // Source: not in the paper, which mentions edge-on triangles as a limitation.
 #ifndef ABUFFER_VISIT_CONSERVATIVE_GLSL
 #define ABUFFER_VISIT_CONSERVATIVE_GLSL
@@ -10,16 +12,16 @@
 #include "abuffer/conservative.glsl"
 
 // True if the plane of a triangle reaches much farther in depth over a cell than the cell is wide. a, b, c
-// are in the view.
+// are in the frame of the view.
 bool abuffer_is_edge_on(vec3 a, vec3 b, vec3 c, ivec2 place, uint resolution) {
     vec3 normal = cross(b - a, c - a);
     float facing = abs(dot(normal, coverage_center(place, resolution)));
     return !(abs(normal.x) + abs(normal.y) <= ABUFFER_EDGE_ON_SLOPE * facing);
 }
 
-// Stores a triangle with these depths in the conservative list of a cell.
+// Puts a triangle with these depths into the conservative list of a cell.
 void abuffer_add_conservative(uint primitive, uint cell, vec2 depths) {
-    // The mark is in a set of its own if other invocations read the first set.
+    // With coverage edge-on other invocations read the first set, so the mark goes into the second one.
     abuffer_mark(build.structure, primitive, abuffer_mark_sets() - 1u);
     if (ABUFFER_HAS_ENDS && !ABUFFER_BUCKETED) {
         abuffer_widen_bounds(build.structure, cell, depths.x, depths.y);
@@ -27,6 +29,8 @@ void abuffer_add_conservative(uint primitive, uint cell, vec2 depths) {
     conservative_add(build.structure, cell, primitive, depths);
 }
 
+// Visits a cell for a triangle. Does nothing if the view has no such cell or the triangle does not reach into
+// it.
 void abuffer_visit_reached(uint primitive, uint view, ivec2 place) {
     uint resolution = abuffer_resolution(build.structure, view);
     uint cell = abuffer_cell(build.structure, view, place);

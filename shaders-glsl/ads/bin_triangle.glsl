@@ -1,4 +1,5 @@
-// A triangle as passes that bin triangles into cells read it: corners, bounds, the columns and rows it may reach.
+// A triangle as passes that bin triangles into cells read it: its corners, its bounds, and the columns and
+// rows that it may reach.
 // Reads: geometry. Writes: nothing.
 #ifndef ADS_BIN_TRIANGLE_GLSL
 #define ADS_BIN_TRIANGLE_GLSL
@@ -6,15 +7,15 @@
 #include "ads/geometry.glsl"
 #include "ads/triangle.glsl"
 
-// Triangle that is binned, with its corners in the form that the structure needs.
+// A triangle that is binned. The space of its corners is the structure's choice.
 struct BinTriangle {
-    uint primitive;
-    vec3 a;
-    vec3 b;
-    vec3 c;
+    uint primitive;       // number of the triangle in the bound geometry
+    vec3 a;               // first corner, metres
+    vec3 b;               // second corner
+    vec3 c;               // third corner
 };
 
-// Reads a triangle with its posed corners.
+// Returns a triangle with its posed corners.
 BinTriangle bin_posed(uint primitive) {
     BinTriangle triangle;
     triangle.primitive = primitive;
@@ -22,8 +23,8 @@ BinTriangle bin_posed(uint primitive) {
     return triangle;
 }
 
-// Reads the corners of a triangle relative to a centre; false for a triangle without area, which is in no
-// list.
+// Reads the corners of a triangle relative to a centre. Returns false for a triangle without area, which no
+// list holds.
 bool bin_corners(vec3 centre, uint primitive, out vec3 a, out vec3 b, out vec3 c) {
     geometry_vertices(primitive, a, b, c);
     bool listed = triangle_has_area(a, b, c);
@@ -33,13 +34,13 @@ bool bin_corners(vec3 centre, uint primitive, out vec3 a, out vec3 b, out vec3 c
     return listed;
 }
 
-// Reads a triangle with its corners relative to a centre; false for a triangle without area.
+// Reads a triangle with its corners relative to a centre. Returns false for a triangle without area.
 bool bin_centred(vec3 centre, uint primitive, out BinTriangle triangle) {
     triangle.primitive = primitive;
     return bin_corners(centre, primitive, triangle.a, triangle.b, triangle.c);
 }
 
-// Returns the bounds of a triangle relative to a centre.
+// Computes the bounds of a triangle relative to a centre.
 void bin_box(vec3 centre, uint primitive, out vec3 lower, out vec3 upper) {
     vec3 a;
     vec3 b;
@@ -49,13 +50,13 @@ void bin_box(vec3 centre, uint primitive, out vec3 lower, out vec3 upper) {
     upper = max(a, max(b, c)) - centre;
 }
 
-// True if bounds intersect the near region, the box of that half side around the centre.
+// True if bounds intersect the near region: a box around the centre with half side `size`.
 bool bin_box_is_near(vec3 lower, vec3 upper, float size) {
     return !any(greaterThan(lower, vec3(size))) && !any(lessThan(upper, vec3(-size)));
 }
 
-// Widens bounds in x/z and y/z by the part of an edge that is not nearer than the near region; they stay
-// unchanged if there is none.
+// Widens bounds in x/z and y/z (lower, upper) by the part of the edge pq at depths of at least `near_size`.
+// They stay unchanged if there is no such part.
 void bin_bound_edge(vec3 p, vec3 q, float near_size, inout vec4 bounds) {
     float s = p.z < near_size ? (near_size - p.z) / (q.z - p.z) : 0.0;
     if (max(p.z, q.z) < near_size) {
@@ -65,10 +66,11 @@ void bin_bound_edge(vec3 p, vec3 q, float near_size, inout vec4 bounds) {
     bounds = vec4(min(bounds.xy, place), max(bounds.zw, place));
 }
 
-// Finds the first and last column and row, of a face with `side` columns along a side and a border of that
-// many cells, that may hold any part of the triangle (a, b, c in face space) or are within `margin` in x/z of
-// it; false if none does. Parts nearer than half the near region are tested with the near-region list, so
-// edges are clipped there; the result is correct to within one column.
+// Finds the first and last column and row that may hold any part of the triangle a, b, c (in face space), or
+// are within `margin` of it in x/z and y/z. The face has `side` columns along a side and a border of `border`
+// cells. Returns false if there is no such column or row. Parts of the triangle at depths below half the near
+// region are left out, since the near-region list serves them; clipping makes the result uncertain by one
+// column, which is added.
 bool bin_bounds(uint side, float near_size, vec3 a, vec3 b, vec3 c, float margin, int border, out ivec2 lower, out ivec2 upper) {
     float view_near = 0.5 * near_size;
     const float far = 3.0e38;

@@ -1,29 +1,30 @@
-// The depths between which a triangle lies within columns of cells along an axis (ads/box_cells.glsl).
-// This function decides for every builder; it may accept more than is exact, never less.
+// Finds the depths between which a triangle lies within a column of cells along an axis (ads/box_cells.glsl).
+// All builders decide by these functions. They may accept more cells than is exact, never fewer.
 // Reads, writes: nothing.
-// The part of a triangle within a column of square section is convex. Its depths are one interval, and it reaches into
-// every slice between the ends. One view therefore lists exactly the cells that a triangle reaches into, also where it
-// is seen edge-on. The ends lie on edges of the triangle within the square, or at corners of the square within the
-// triangle.
+// The part of a triangle within a column of square section is convex. Its depths are therefore one interval,
+// and it reaches into every slice between the ends of that interval. So one view lists exactly the cells that
+// a triangle reaches into, even where it is seen edge-on. The ends of the interval lie on edges of the
+// triangle within the square, or at corners of the square within the triangle.
 #ifndef ADS_BOX_CLIP_GLSL
 #define ADS_BOX_CLIP_GLSL
 
 #include "ads/box_cells.glsl"
 
-// Triangle in units of cells.
+// A triangle in units of cells.
 struct BoxClip {
-    vec3 a;
-    vec3 b;
-    vec3 c;
-    vec3 lower;           // of its bounds
-    vec3 upper;
-    vec3 normal;
-    vec3 normal_error;
-    vec3 margin;          // how far a cell reaches beyond its sides
-    float slack;          // how far rounding moves a place in what follows, 32 units of the longest side
+    vec3 a;               // first corner
+    vec3 b;               // second corner
+    vec3 c;               // third corner
+    vec3 lower;           // lower corner of its bounds
+    vec3 upper;           // upper corner of its bounds
+    vec3 normal;          // normal; its length is twice the area
+    vec3 normal_error;    // bound of the rounding of each component of the normal
+    vec3 margin;          // how far a cell reaches beyond its sides, along each axis
+    // how far rounding moves a place in the functions below: 32 units of rounding of the longest side
+    float slack;
 };
 
-// Begins a triangle; a, b, c are in metres from the centre.
+// Begins the tests of a triangle; a, b, c are in metres from the centre.
 BoxClip box_clip_begin(BoxCells axes, uvec3 cells, vec3 a, vec3 b, vec3 c) {
     BoxClip clip;
     precise vec3 pa = (a - axes.lower) * axes.per_metre;
@@ -53,7 +54,8 @@ bool box_clip_is_small(BoxClip clip) {
     return all(lessThanEqual(clip.upper - clip.lower, vec3(1.0)));
 }
 
-// Widens depths by those of the edge pq within the square between two corners.
+// Widens an interval of depths by the depths of the part of edge pq that lies in the square from `lower` to
+// `upper`.
 void box_clip_edge(vec3 p, vec3 q, vec2 lower, vec2 upper, inout vec2 depths) {
     precise vec3 span = q - p;
     vec2 range = vec2(0.0, 1.0);
@@ -74,17 +76,18 @@ void box_clip_edge(vec3 p, vec3 q, vec2 lower, vec2 upper, inout vec2 depths) {
     }
 }
 
-// Returns which of four points lie on the inner side of the edge pq, or within rounding of it; `winding` is 1
-// or -1.
+// Says which of four points lie on the inner side of edge pq, or within `slack` of it. `winding` is 1 or -1.
 bvec4 box_clip_inside(vec3 p, vec3 q, vec4 x, vec4 y, float winding, float slack) {
     precise vec2 span = q.xy - p.xy;
     precise vec4 value = winding * (span.x * (y - p.y) - span.y * (x - p.x));
     return greaterThanEqual(value, vec4(-slack * (abs(span.x) + abs(span.y))));
 }
 
-// Widens depths by those of the triangle at the corners of the square that lie in it.
+// Widens an interval of depths by the triangle's depths at those corners of the square that lie in the
+// triangle.
 void box_clip_corners(BoxClip clip, vec2 lower, vec2 upper, inout vec2 depths) {
-    // A triangle so thin that its winding is lost has an edge within the slack of any such corner.
+    // If a triangle is so thin that rounding hides its winding, one of its edges is within the slack of any
+    // such corner.
     if (!(abs(clip.normal.z) > clip.normal_error.z)) {
         return;
     }
@@ -102,7 +105,7 @@ void box_clip_corners(BoxClip clip, vec2 lower, vec2 upper, inout vec2 depths) {
     precise vec4 reach = error / (abs(clip.normal.z) - clip.normal_error.z) + clip.slack;
     for (int corner = 0; corner < 4; corner++) {
         if (ab[corner] && bc[corner] && ca[corner]) {
-            // Depths beyond the triangle's own corners are errors of rounding.
+            // Depths beyond those of the triangle's corners are due to rounding, so they are clamped.
             precise float nearest = clip.a.z - fall[corner] - reach[corner];
             precise float farthest = clip.a.z - fall[corner] + reach[corner];
             depths = vec2(min(depths.x, max(nearest, clip.lower.z)), max(depths.y, min(farthest, clip.upper.z)));
@@ -110,8 +113,8 @@ void box_clip_corners(BoxClip clip, vec2 lower, vec2 upper, inout vec2 depths) {
     }
 }
 
-// Finds the depths of the triangle within a square of `side` columns, margins included; false if it does not
-// reach into the square.
+// Finds the depths of the triangle within a square of `side` columns from `column` on, margins included.
+// Returns false if the triangle does not reach into the square.
 bool box_clip_depths(BoxClip clip, ivec2 column, int side, out vec2 depths) {
     precise vec2 lower = vec2(column) - clip.margin.xy;
     precise vec2 upper = vec2(column + side) + clip.margin.xy;

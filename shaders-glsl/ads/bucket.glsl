@@ -1,16 +1,16 @@
-// The one function that turns depth into a bucket, for build and trace alike.
+// Turns a depth into a bucket. Builds and traces call the same function.
 // Reads, writes: nothing.
-// Subtraction of one number, multiplication by a non-negative one, clamping and truncation are each
-// monotone in f32, hence da <= d <= db implies bucket(da) <= bucket(d) <= bucket(db) without an
-// epsilon, as long as z_min and scale are the same numbers on both sides: they are, on every device.
+// Subtraction of a number, multiplication by a number that is not negative, clamping and truncation are each
+// monotone in f32. So da <= d <= db implies bucket(da) <= bucket(d) <= bucket(db) without a margin, if z_min
+// and scale are the same bits in build and trace. These functions compute the same bits on every device.
 #ifndef ADS_BUCKET_GLSL
 #define ADS_BUCKET_GLSL
 
-// Returns the number of buckets per metre; 0 if all depths are (nearly) equal, which puts everything into
-// bucket 0. Division may differ between two stages of one device, so the reciprocal is that of whole numbers:
-// the upper 16 bits of the range, rounded up, divide 2^32. The scale is at most 2^-14 too small, and never
-// too large, so the largest depth is in the last bucket. Ranges from 2^110 on take the scale of the largest
-// below.
+// Returns the number of buckets per metre; 0 if all depths are nearly equal, which puts all of them into
+// bucket 0. Division may round differently in two stages of one device, so the function divides whole
+// numbers: 2^32 by the upper 16 bits of the range, rounded up. The result is never too large, and at most
+// 2^-14 too small, so the largest depth is in the last bucket. Ranges of 2^110 or more get the scale of the
+// largest range below.
 float bucket_scale(float z_min, float z_max, uint buckets) {
     precise float range = z_max - z_min;
     if (!(range > z_max * 9.5367432e-7)) {
@@ -20,7 +20,7 @@ float bucket_scale(float z_min, float z_max, uint buckets) {
     uint exponent = clamp(bits >> 23, 1u, 236u);
     uint divisor = ((bits & 0x007FFFFFu | 0x00800000u) >> 8) + 1u;
     uint quotient = 0xFFFFFFFFu / divisor;
-    // Both factors are exact, and so is the power of two.
+    // Both factors are exact in f32, and so is the power of two below.
     precise float share = float(quotient) * float(buckets);
     precise float scale = share * uintBitsToFloat((237u - exponent) << 23);
     return scale;

@@ -1,7 +1,9 @@
-// Visits the cells of each triangle in each view and does there what BIN_VISIT says; one invocation per triangle.
-// Large triangles are in the large-triangle queue and left to the pass for those.
-// Reads, writes: see the structure's binned.glsl; the pass that enqueues writes the large-triangle queue,
-// header.large_demand, header.groups.
+// Visits the cells of each triangle in each view, and does there what the pass BIN_VISIT does. Large
+// triangles are not visited here: one pass enqueues them, and the passes of build_bin_large.comp visit their
+// cells.
+// Reads, writes: see the structure's binned.glsl. The pass that enqueues also writes the large-triangle
+// queue, header.large_demand and header.groups.
+// One invocation per triangle.
 #version 460
 #include "contract/extensions.glsl"
 #include "ads/bin_cells.glsl"

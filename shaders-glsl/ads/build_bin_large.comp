@@ -1,7 +1,7 @@
-// Visits the cells of the triangles in the large-triangle queue. Each gets groups[2] workgroups (in the header), which
-// take its cells, or blocks of them, in turn. The host chooses groups[2] so that no invocation visits more than BIN_TURNS
-// cells.
+// Visits the cells of the triangles in the large-triangle queue, and does there what the pass BIN_VISIT does.
 // Reads, writes: see the structure's binned.glsl; reads the large-triangle queue.
+// header.groups[2] workgroups per triangle. Their invocations take the triangle's cells, or blocks of cells,
+// in turn. The host chooses the number of workgroups so that no invocation visits more than BIN_TURNS cells.
 #version 460
 #include "contract/extensions.glsl"
 #include "ads/bin_cells.glsl"

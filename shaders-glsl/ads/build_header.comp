@@ -1,6 +1,8 @@
-// Works out the parts of a structure's header that follow from the bounds of the geometry, which only the device knows,
-// and from the eye. One invocation; the first pass of every build.
-// Reads: the geometry's header; of the structure's what the host wrote: options, capacities, eye. Writes: the structure's.
+// Fills in the parts of a structure's header that follow from the eye and from the bounds of the geometry,
+// which only the device may know. This is the first pass of every build.
+// Reads: the geometry's header; of the structure's header what the host wrote: options, capacities, eye.
+// Writes: the structure's header.
+// One invocation.
 #version 460
 #include "contract/extensions.glsl"
 #include "ads/geometry.glsl"

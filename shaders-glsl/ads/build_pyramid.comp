@@ -1,6 +1,8 @@
-// Depth bounds of the blocks of one level, from those of the level below; one invocation per block.
-// Reads: bounds. Writes: bounds, of blocks.
-// Source: DIRT section 4.1.1, mipmap depth. A block of 2x2 cells takes those around it as well, so every block does.
+// Computes the depth bounds of the blocks of one level of a pyramid from those of the level below.
+// Reads: bounds of cells or blocks. Writes: bounds of blocks.
+// One invocation per block.
+// Source: DIRT section 4.1.1, mipmap depth. Here a block of 2x2 cells also takes the bounds of the cells
+// around it, so the blocks of all levels do.
 #version 460
 #include "contract/extensions.glsl"
 #include "ads/constants.glsl"
@@ -12,7 +14,7 @@ layout(local_size_x = PYRAMID_THREADS) in;
 
 void main() {
     uint index = gl_GlobalInvocationID.y * gl_NumWorkGroups.x * PYRAMID_THREADS + gl_GlobalInvocationID.x;
-    // The step is the level, plus the first of the views in the bits from 8 on.
+    // build.step is the level, plus the number of the first view in the bits from 8 on.
     uint first_view = build.step >> 8;
     PyramidLevel level = STRUCTURE_NAME(pyramid_first)(build.structure, first_view);
     PyramidLevel below = level;

@@ -1,6 +1,7 @@
-// Sorts each list in place, one thread per list, or per several linked ones; lists that are too long for one dispatch
-// are stored in a table for ads/build_sort_long.comp.
+// Sorts each list in place. Lists that are too long for one dispatch are stored in a table, for
+// ads/build_sort_long.comp.
 // Reads, writes: see the structure's sorted.glsl.
+// One invocation per list, or per NODE_SORT_LISTS linked lists.
 // Source: MMRT section 3.3, reorder pass; Hu et al. section 3.1, sort pass.
 #version 460
 #include "contract/extensions.glsl"

@@ -1,6 +1,9 @@
-// Sorts a share of each long list, dispatch by dispatch, and counts those that the last one leaves unsorted.
+// Does a share of the sorting of each long list. The last of LONG_LIST_ROUNDS dispatches counts the lists
+// that are still not sorted.
 // Reads, writes: see the structure's sorted.glsl.
-// Source: MMRT section 3.3, reorder pass; Hu et al. section 3.1, sort pass. Both cut lists that are longer than a private array.
+// One invocation per list of the table.
+// Source: MMRT section 3.3, reorder pass; Hu et al. section 3.1, sort pass. Both papers cut lists that are
+// longer than a private array.
 #version 460
 #include "contract/extensions.glsl"
 #include "structure/sorted.glsl"

@@ -1,26 +1,28 @@
-// The conservative list of a cell: triangles that reach into it without a fragment there, as a separate linked
-// list per cell. Links are node number + 1; 0 ends a list. Included once per structure that has one: the functions are
-// overloads by its reference type.
-// Reads, writes: through what the including file defines before, all of it undefined again at the end:
+// The conservative list of a cell: the triangles that reach into the cell but have no fragment there. It is a
+// linked list per cell, apart from the cell's list of fragments.
+// Reads, writes: through what the including file defines first. This file undefines all of it at its end:
 //   ConservativeRef                reference type of the structure
 //   CONSERVATIVE_HEAD(s, cell)     the first link of a cell
-//   CONSERVATIVE_NODES(s)          words of the nodes: triangle, next link, depths in the cell
+//   CONSERVATIVE_NODES(s)          words of the nodes, three each: triangle, next link, depths in the cell
 //   CONSERVATIVE_HEADER(s)         has conservative_demand, conservative_capacity and corrupted
 // Source: not in the papers; MMRT mentions edge-on triangles as a limitation.
-// Depths are not negative. The upper 16 bits of each are stored, the larger one rounded up, so that the stored interval
-// contains the given one.
+// A shader with several structures includes this file once per structure: the functions are overloads by the
+// reference type. A link is the number of a node plus 1; 0 ends a list. Depths are not negative. A node
+// stores the upper 16 bits of the smallest and of the largest depth, the latter rounded up, so that the
+// stored interval contains the exact one.
 
 #ifndef ADS_CONSERVATIVE_GLSL
 #define ADS_CONSERVATIVE_GLSL
 
+// A node of a conservative list as it is read: without its triangle, which conservative_primitive reads.
 struct ConservativeNode {
-    uint word;            // where its triangle is; PRIMITIVE_NONE: there is no such node
-    uint next;
-    vec2 depths;          // smallest and largest that the triangle has in the cell
+    uint word;            // first word of the node; PRIMITIVE_NONE if there is no such node
+    uint next;            // link of the next node; 0 at the end of the list
+    vec2 depths;          // smallest and largest depth that the triangle has in the cell, metres
 };
 
 uint conservative_pack_depths(vec2 depths) {
-    // Rounding up the largest finite number gives infinity; infinity stays unchanged.
+    // Rounding up turns the largest finite number into infinity. The minimum keeps infinity as it is.
     uint high = min((floatBitsToUint(depths.y) >> 16) + 1u, 0x7F80u);
     return floatBitsToUint(depths.x) >> 16 | high << 16;
 }
@@ -31,8 +33,8 @@ bool conservative_intersects(ConservativeNode node, float low, float high) {
 }
 #endif
 
-// Adds a triangle, with its smallest and largest depth in the cell, to the cell's conservative list. Beyond the
-// capacity it is only counted.
+// Adds a triangle to the conservative list of a cell, with its smallest and largest depth in the cell. Beyond
+// the capacity the triangle is only counted.
 void conservative_add(ConservativeRef s, uint cell, uint primitive, vec2 depths) {
     uint node = atomicAdd(CONSERVATIVE_HEADER(s).conservative_demand, 1u);
     if (node < CONSERVATIVE_HEADER(s).conservative_capacity) {
@@ -42,7 +44,8 @@ void conservative_add(ConservativeRef s, uint cell, uint primitive, vec2 depths)
     }
 }
 
-// Returns the node of a link. A link past the end is counted and gives the end of the list.
+// Returns the node of a link. A link past the end of the pool is counted, and gives a node that ends the
+// list.
 ConservativeNode conservative_node(ConservativeRef s, uint link) {
     if (link - 1u >= min(CONSERVATIVE_HEADER(s).conservative_capacity, CONSERVATIVE_HEADER(s).conservative_demand)) {
         atomicAdd(CONSERVATIVE_HEADER(s).corrupted, 1u);
@@ -54,7 +57,7 @@ ConservativeNode conservative_node(ConservativeRef s, uint link) {
         vec2(uintBitsToFloat(depths << 16), uintBitsToFloat(depths & 0xFFFF0000u)));
 }
 
-// Returns the triangle of a node that there is.
+// Returns the triangle of a node that exists.
 uint conservative_primitive(ConservativeRef s, ConservativeNode node) {
     return CONSERVATIVE_NODES(s)[node.word];
 }

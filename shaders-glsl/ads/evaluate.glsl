@@ -1,5 +1,5 @@
-// Tests whether a triangle becomes a ray's best hit, and if not, says why.
-// Reads: geometry, of rays that pass backs also draws; the scene where alpha is tested. Writes: nothing.
+// Tests whether a triangle becomes a ray's best hit, and says why if it does not.
+// Reads: geometry; draws, for rays that pass through backs; the scene where alpha is tested. Writes: nothing.
 #ifndef ADS_EVALUATE_GLSL
 #define ADS_EVALUATE_GLSL
 
@@ -10,9 +10,9 @@
 #include "ads/geometry.glsl"
 #include "ads/triangle.glsl"
 
-// Returns the verdict (TEST_*) on a triangle with these corners for hits within [t_low, t_high]; t and
-// t_error are 0 if the ray does not intersect it. Candidates are excluded and ranked by their numbers, which
-// are in the order of ids.
+// Returns the verdict (TEST_*) on a triangle with these corners, for hits within [t_low, t_high]. t and
+// t_error are 0 if the ray does not intersect the triangle. `primitive` is the triangle's number in the bound
+// geometry, by which triangles are excluded and ranked; numbers are in the order of ids.
 uint evaluate_corners(Ray ray, Hit best, uint primitive, vec3 a, vec3 b, vec3 c, float t_low, float t_high, out float t,
     out vec2 barycentrics, out float t_error) {
     t = 0.0;
@@ -43,7 +43,7 @@ uint evaluate_corners(Ray ray, Hit best, uint primitive, vec3 a, vec3 b, vec3 c,
     return alpha_accepts(primitive, barycentrics) ? TEST_ACCEPTED : TEST_TRANSPARENT;
 }
 
-// Returns the verdict of evaluate_corners with the corners of the geometry.
+// Returns the verdict of evaluate_corners, with corners read from the geometry.
 uint evaluate_triangle(Ray ray, Hit best, uint primitive, float t_low, float t_high, out float t, out vec2 barycentrics,
     out float t_error) {
     vec3 a;
@@ -53,7 +53,7 @@ uint evaluate_triangle(Ray ray, Hit best, uint primitive, float t_low, float t_h
     return evaluate_corners(ray, best, primitive, a, b, c, t_low, t_high, t, barycentrics, t_error);
 }
 
-// Logs the verdict on a triangle, and, if it is accepted, that it is the best hit.
+// Logs the verdict on a triangle; if the triangle is accepted, also logs that it is the best hit.
 void test_log(uint primitive, uint verdict, float t, float t_error) {
     if (COUNTERS >= COUNTERS_STEPS) {
         trace_log(STEP_TEST, primitive, verdict, 0u, t, t_error);
@@ -64,7 +64,7 @@ void test_log(uint primitive, uint verdict, float t, float t_error) {
 }
 
 // Evaluates a triangle, logs the verdict, and replaces the best hit if the triangle is accepted. Returns true
-// if the hit was replaced. The caller counts the test.
+// if it replaced the hit. The caller counts the test.
 bool test_corners(Ray ray, uint primitive, vec3 a, vec3 b, vec3 c, float t_low, float t_high, inout Hit best) {
     float t;
     vec2 barycentrics;
@@ -78,7 +78,7 @@ bool test_corners(Ray ray, uint primitive, vec3 a, vec3 b, vec3 c, float t_low, 
     return true;
 }
 
-// Tests as test_corners with the corners of the geometry.
+// Does what test_corners does, with corners read from the geometry.
 bool test_triangle(Ray ray, uint primitive, float t_low, float t_high, inout Hit best) {
     vec3 a;
     vec3 b;
@@ -87,7 +87,7 @@ bool test_triangle(Ray ray, uint primitive, float t_low, float t_high, inout Hit
     return test_corners(ray, primitive, a, b, c, t_low, t_high, best);
 }
 
-// Tests as test_triangle for hits at any t. Counts the test.
+// Does what test_triangle does, for hits at any t, and counts the test.
 bool test_anywhere(Ray ray, uint primitive, inout TraceState state) {
     float infinity = uintBitsToFloat(0x7F800000u);
     state.tests++;

@@ -1,5 +1,7 @@
-// Integers in the order of floats, so that integer atomics find the least and the largest. -0 comes just before 0.
-// Reads, writes: nothing. Source: the usual flip of the bits of negative floats.
+// Maps floats to integers in the same order, so that integer atomics find the smallest and the largest float.
+// -0 comes just before 0.
+// Reads, writes: nothing.
+// Source: the usual flip of the bits of negative floats.
 #ifndef ADS_FLOAT_KEYS_GLSL
 #define ADS_FLOAT_KEYS_GLSL
 

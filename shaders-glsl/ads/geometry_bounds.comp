@@ -1,6 +1,8 @@
-// Computes the bounds of all triangles: one invocation per triangle, one atomic operation per workgroup and side.
-// Reads: positions and indices of GEOMETRY_SET, or with BOUNDS_OF_GATHERED what indices are gathered from. Writes: keys of its header, which were filled before: all bits for the lower
-// ones, none for the upper ones.
+// Computes the bounds of all triangles, as integer keys, with one atomic operation per workgroup and side.
+// Reads: positions and indices of GEOMETRY_SET; if BOUNDS_OF_GATHERED is defined, the indices from which a
+// gather pass will make these. Writes: keys in the header of GEOMETRY_SET. They must hold the identities
+// before: all bits set in the lower keys, none in the upper keys.
+// One invocation per triangle.
 #version 460
 #include "contract/extensions.glsl"
 
@@ -19,7 +21,8 @@ layout(local_size_x = 64) in;
 shared uint shared_keys[6];
 
 void include_corner(vec3 corner) {
-    // NaN corners are ignored; the check finds triangles that no bounds hold.
+    // Corners that are not finite are ignored. The check pass (ads/geometry_check.comp) counts triangles with
+    // infinite corners; no ray hits those with NaN.
     if (any(isnan(corner)) || any(isinf(corner))) {
         return;
     }

@@ -1,5 +1,6 @@
-// Bounds from their keys; one invocation.
-// Reads: keys of the header of GEOMETRY_SET. Writes: its bounds; zeros where there is no triangle.
+// Converts the keys of the bounds to bounds.
+// Reads: keys in the header of GEOMETRY_SET. Writes: bounds in the header; zeros if there is no triangle.
+// One invocation.
 #version 460
 #include "contract/extensions.glsl"
 
@@ -15,7 +16,7 @@ void main() {
         geometry_header.lower[axis] = any_corner ? float_of(geometry_header.lower_keys[axis]) : 0.0;
         geometry_header.upper[axis] = any_corner ? float_of(geometry_header.upper_keys[axis]) : 0.0;
     }
-    // For a part, ads/geometry_bounds_unite.comp follows.
+    // These are replaced by ads/geometry_bounds_unite.comp, which follows where the geometry is a part.
     geometry_header.around_lower = geometry_header.lower;
     geometry_header.around_upper = geometry_header.upper;
 }

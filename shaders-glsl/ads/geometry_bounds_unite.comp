@@ -1,6 +1,8 @@
-// The bounds of a geometry from those of its parts; one invocation.
-// Reads: copies of the headers of all parts; what moves was measured just before (ads/geometry_bounds.comp), the bounds of
-// any other part are what its header states. Writes: bounds of the header of GEOMETRY_SET, unchanged where no part has any.
+// Unites the bounds of the parts of a geometry.
+// Reads: copies of the headers of all parts. The bounds of parts that move were computed just before
+// (ads/geometry_bounds.comp), those of other parts are stated by their headers. Writes: bounds in the header
+// of GEOMETRY_SET, unless no part has any.
+// One invocation.
 #version 460
 #include "contract/extensions.glsl"
 
@@ -18,7 +20,8 @@ void main() {
     vec3 lower = vec3(0.0);
     vec3 upper = vec3(0.0);
     for (uint part = 0u; part < uint(geometry_parts.length()); part++) {
-        // The keys of a part that was not measured are equal.
+        // A part whose bounds were stated and not computed has equal keys. Keys are in
+        // the wrong order if they were computed and no corner was finite.
         if (geometry_parts[part].triangle_count == 0u
             || geometry_parts[part].lower_keys[0] > geometry_parts[part].upper_keys[0]) {
             continue;

@@ -1,7 +1,7 @@
-// Counts the triangles that reach out of the bounds their geometry states, or have a vertex number that does not
-// exist: one invocation per triangle. Structures place cells by the bounds, so such triangles would be lost without
-// notice.
-// Reads: positions and indices of GEOMETRY_SET. Writes: adds to its header's count.
+// Counts the triangles that are not within the bounds that the geometry states, or that have an index of no
+// vertex. Structures place cells by the bounds, so such triangles would be lost without notice.
+// Reads: positions and indices of GEOMETRY_SET. Writes: header.outside, to which it adds.
+// One invocation per triangle.
 #version 460
 #include "contract/extensions.glsl"
 
@@ -10,7 +10,7 @@ layout(local_size_x = 64) in;
 #define GEOMETRY_WRITTEN
 #include "ads/geometry.glsl"
 
-// True if a corner is outside the bounds. NaN corners never are: no ray hits their triangles.
+// True if a corner is outside the bounds. Corners with NaN are not outside: no ray hits their triangles.
 bool is_outside(vec3 corner) {
     return any(lessThan(corner, geometry_header.lower)) || any(greaterThan(corner, geometry_header.upper));
 }

@@ -1,7 +1,8 @@
-// The number of triangles, where only the device knows it: one invocation. Those beyond the maximum do not exist,
-// and are counted as outside.
-// Reads: the count, in a buffer of the embedder's. Writes: triangle_count, outside and stamp of GEOMETRY_SET's header, and
-// the arguments of the draws of all triangles onto 1 to GEOMETRY_DRAW_VIEWS views.
+// Reads the number of triangles, if only the device knows it. Triangles beyond the maximum number do not
+// exist, and are counted as outside.
+// Reads: the count, in a buffer of the embedder's. Writes: triangle_count, outside and stamp in the header of
+// GEOMETRY_SET; arguments of the draws of all triangles onto 1 to GEOMETRY_DRAW_VIEWS views.
+// One invocation.
 #version 460
 #include "contract/extensions.glsl"
 #include "ads/constants.glsl"
@@ -11,12 +12,12 @@ layout(local_size_x = 1) in;
 #define GEOMETRY_WRITTEN
 #include "ads/geometry.glsl"
 
-// Place of the count, and its maximum. 16 bytes.
+// The place of the count, and what follows from it. 16 bytes.
 layout(push_constant, scalar) uniform GeometryCountConstants {
-    uint count_word;     // of the count, in what is bound
-    uint most_triangles; // the maximum
-    uint first_stamp;    // of GEOMETRY_COUNT_STAMPS stamps that no other geometry has
-    uint stamp_flags;    // of a new stamp: GEOMETRY_NOT_GATHERED where indices are gathered, else 0
+    uint count_word;     // word of the count in the buffer that is bound
+    uint most_triangles; // the maximum number of triangles
+    uint first_stamp;    // first of GEOMETRY_COUNT_STAMPS stamps that no other geometry has
+    uint stamp_flags;    // bits of a new stamp: GEOMETRY_NOT_GATHERED if indices will be gathered, else 0
 } pushed;
 layout(set = 1, binding = 0, scalar) readonly buffer GeometryCountBuffer {
     uint geometry_counts[];
@@ -27,7 +28,8 @@ layout(set = 1, binding = 1, scalar) writeonly buffer GeometryDrawArgumentBuffer
 
 void main() {
     uint triangles = min(geometry_counts[pushed.count_word], pushed.most_triangles);
-    // If triangles were added or removed, an earlier build is not of these triangles.
+    // If the number of triangles has changed, earlier builds are not of these triangles, so there is a new
+    // stamp.
     if (geometry_header.stamp == 0u || triangles != geometry_header.triangle_count) {
         uint step = STATUS_FLAGS + 1u;
         uint taken = geometry_header.stamp == 0u ? 0u : (geometry_header.stamp - pushed.first_stamp) / step + 1u;

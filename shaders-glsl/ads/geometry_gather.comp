@@ -1,7 +1,8 @@
-// Turns indices of an engine (u16 or u32, per draw a first index and a base vertex) into absolute u32 indices in
-// the order of the triangles, or picks those of a part: one invocation per triangle.
-// Reads: draws of GEOMETRY_SET, indices in a buffer of the embedder's. Writes: indices of GEOMETRY_SET,
-// and GEOMETRY_NOT_GATHERED of its stamp.
+// Gathers indices: turns those of an engine (u16 or u32, with a first index and a base vertex per draw) into
+// absolute u32 indices in the order of the triangles, or copies the indices of a part's triangles.
+// Reads: draws of GEOMETRY_SET, indices in a buffer of the embedder's. Writes: indices of GEOMETRY_SET, and
+// the bit GEOMETRY_NOT_GATHERED of the stamp.
+// One invocation per triangle.
 #version 460
 #include "contract/extensions.glsl"
 #include "ads/constants.glsl"

@@ -1,14 +1,14 @@
-// Rays that start beyond the fragments of the triangle that they leave, which need not lie on the triangle.
+// Lets rays that leave a triangle start beyond the triangle's fragments, which need not lie on the triangle.
 // Reads: geometry. Writes: nothing.
-// Source: as rays that leave a fragment start (scene/spawn.glsl), here for origins on triangles.
+// Source: rays that leave a fragment start in this way (scene/spawn.glsl); here origins are on triangles.
 #ifndef ADS_LEAVING_GLSL
 #define ADS_LEAVING_GLSL
 
 #include "ads/geometry.glsl"
 
-// Moves a ray to begin at a point that lies, along the normal of a triangle and to the side that the ray goes
-// to, beyond everything within `reach` metres of the plane along each axis. The ray is moved sideways and
-// begins later, so that t stays that of the given ray.
+// Moves the start of a ray along the normal of a triangle, to the side that the ray goes to, beyond
+// everything that is within `reach` metres of the triangle's plane along each axis. The origin is moved at
+// right angles to the ray, and t_min is raised, so that t of a hit stays that of the given ray.
 Ray leaving_triangle(Ray ray, float reach, vec3 a, vec3 b, vec3 c) {
     vec3 normal = cross(b - a, c - a);
     float size = length(normal);
@@ -22,8 +22,8 @@ Ray leaving_triangle(Ray ray, float reach, vec3 a, vec3 b, vec3 c) {
     return ray;
 }
 
-// Moves as leaving_triangle a ray from the triangle that it excludes; the ray stays unchanged if it excludes
-// none.
+// Does what leaving_triangle does, with the triangle that the ray excludes. A ray that excludes no triangle
+// stays unchanged.
 Ray leaving_ray(Ray ray, float reach) {
     if (ray.exclude_primitive >= geometry_triangle_count()) {
         return ray;

@@ -1,11 +1,11 @@
-// The list that contains an element of a pool, where lists are contiguous and each has a word with
+// Finds the list that contains an element of a pool, where lists are contiguous and each stores the place of
 // its end.
 // Reads: what `list_end(list)` reads, which the including file defines. Writes: nothing.
 #ifndef ADS_LIST_OF_PLACE_GLSL
 #define ADS_LIST_OF_PLACE_GLSL
 
-// Returns the first of `count` lists that ends past the place: the list that contains it, or the next one if
-// none does.
+// Returns the first of `count` lists whose end is beyond the place: the list that contains the place. If no
+// list contains it, this is the next list.
 uint list_of_place(uint count, uint place) {
     uint begin = 0u;
     uint end = count - 1u;

@@ -1,14 +1,17 @@
-// Tests triangles one by one: those of the near-region list, or all. Included once per structure that does: the
-// functions are overloads by its reference type.
-// Reads, writes: through what the including file defines before, all of it undefined again at the end:
+// Tests triangles one by one: those of the near-region list, or all triangles.
+// Reads, writes: through what the including file defines first. This file undefines all of it at its end:
 //   ListedRef             reference type of the structure
 //   LISTED_HEADER(s)      has near_demand and near_capacity
-//   LISTED_NEAR(s)        words of the near-region list; these two only where the structure has one
-// Source: ours: where rounding is too large for cells, every triangle that may be hit is tested.
+//   LISTED_NEAR(s)        words of the near-region list
+// A structure without such a list defines ListedRef only.
+// Source: none; where rounding is too large for cells, every triangle that may be hit is tested.
+// A shader with several structures includes this file once per structure: the functions are overloads by the
+// reference type.
 
 #include "ads/evaluate.glsl"
 
-// Tests triangles from `place` on. Returns true if the work budget was used up before the end.
+// Tests the triangles from `place` on, in the list or of all, and counts the work. Returns true if the work
+// budget was spent before the end.
 bool listed_test(ListedRef s, Ray ray, bool all_triangles, bool any_hit, inout uint place, inout TraceState state, inout uint work) {
     uint count = geometry_triangle_count();
 #ifdef LISTED_NEAR

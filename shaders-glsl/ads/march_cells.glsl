@@ -1,9 +1,10 @@
-// Traverses the cells of one face that a ray crosses, by t, in closed form per boundary plane.
+// Marches a ray through the cells of one face, from one boundary between cells to the next.
 // Reads, writes: nothing.
-// The ray intersects the boundary x/z = c at t = (c*Oz - Ox) / (Dx - c*Dz); the direction of steps is fixed by the
-// sign of Dx*Oz - Ox*Dz. Nothing is accumulated and no point is projected again, so steps are integers
-// and their number is bounded by the resolution. Where the ray passes a boundary within rounding, the
-// cells on the other side are visited as well: the visited cells are a superset of the exact ones.
+// A ray with origin O and direction D intersects the boundary x/z = c at t = (c Oz - Ox) / (Dx - c Dz), and
+// it crosses boundaries in the direction that the sign of Dx Oz - Ox Dz tells. Each t is computed from these
+// numbers alone: nothing is accumulated, and no point is projected again. Steps are integers, and the
+// resolution bounds their number. Where the ray passes a boundary within rounding, the cells on the other
+// side are visited as well, so the visited cells include all that the exact ray crosses.
 #ifndef ADS_MARCH_CELLS_GLSL
 #define ADS_MARCH_CELLS_GLSL
 
@@ -11,26 +12,31 @@
 
 #define MARCH_INFINITY uintBitsToFloat(0x7F800000u)
 
-// Traversal of one face between two t.
+// The march of a ray through one face, along a segment between two t.
 struct CellMarch {
     vec3 origin;          // face space, metres from the eye
-    vec3 direction;
-    uint resolution;
-    float t_end;          // where the segment exits the face or the ray ends
-    ivec2 cell;           // the cell the ray is in
-    float t_in;           // where it entered
-    float t_out;          // where it exits
-    float error_in;       // bounds of the errors of t_in and t_out
-    float error_out;
-    ivec2 step_direction; // -1, 0 or 1 per axis
-    bool step_x;          // which boundary t_out belongs to; both false: the segment ends in this cell
-    bool step_y;
-    uint neighbours;      // bits of 3x3 cells around `cell` that are still to be visited as well
-    uint touched;         // those of them next to the exit: the ray may be in the cells opposite from t_out on
+    vec3 direction;       // face space, metres per unit of t
+    uint resolution;      // cells along a side of the face, without border
+    float t_end;          // where the segment ends: the ray leaves the face, or ends
+    ivec2 cell;           // the current cell
+    float t_in;           // t at which the ray enters the current cell
+    float t_out;          // t at which it leaves the cell
+    float error_in;       // bound of the error of t_in
+    float error_out;      // bound of the error of t_out
+    ivec2 step_direction; // direction of steps along each axis: -1, 0 or 1
+    // true if the ray leaves the cell by a boundary along x; the segment ends in this cell if step_x and
+    // step_y are false
+    bool step_x;
+    bool step_y;          // true if the ray leaves the cell by a boundary along y
+    // neighbours of the cell that are still to be visited, a bit per cell of the 3x3 cells around it
+    uint neighbours;
+    // neighbours beside the cell that the ray touches at the exit; it touches those with the same bits beside
+    // the next cell, too
+    uint touched;
 };
 
-// Returns the t at which the ray intersects x/z = boundary, and a bound of its error; infinite if it does
-// not.
+// Returns the t at which the ray intersects the boundary x/z = `boundary`, and a bound of its error. The
+// result is infinite if the ray does not cross the boundary in this direction.
 float march_crossing(float boundary, float o, float d, float oz, float dz, int direction, out float error) {
     precise float numerator = boundary * oz - o;
     precise float denominator = d - boundary * dz;
@@ -38,30 +44,31 @@ float march_crossing(float boundary, float o, float d, float oz, float dz, int d
     if (direction > 0 ? !(denominator > 0.0) : !(denominator < 0.0)) {
         return MARCH_INFINITY;
     }
-    // Precise: stepping and skipping must compute the same bits.
+    // The expressions are precise, since stepping and skipping must compute the same bits.
     precise float t = numerator / denominator;
     precise float bound = FLOAT_ROUNDING * (8.0 * abs(t) + (abs(boundary * oz) + abs(t * boundary * dz)) / abs(denominator));
     error = bound;
     return t;
 }
 
-// Returns bits of the cells around a cell along one axis that a point touches within rounding: 1 the lower
-// neighbour, 2 the cell itself, 4 the upper one; all three if a cell is no wider than the rounding.
+// Says which cells along one axis a point touches within `guard`: bit 0 for the lower neighbour of a cell,
+// bit 1 for the cell itself, bit 2 for the upper neighbour. All three are set if a cell is no wider than the
+// guard.
 uint march_touching(float lower, float upper, float x, float z, float guard) {
     precise float from_lower = x - lower * z;
     precise float from_upper = x - upper * z;
     return 2u | (abs(from_lower) <= guard ? 1u : 0u) | (abs(from_upper) <= guard ? 4u : 0u);
 }
 
-// Returns bits of the cells that the ray touches within rounding at t: the neighbours of `cell` along x, y,
-// and both.
+// Says which neighbours of the current cell the ray touches at t within rounding, as bits of the 3x3 cells
+// around it: neighbours along x if `along_x`, along y if `along_y`, and diagonal ones if both.
 uint march_touched(CellMarch m, float t, float t_error, bool along_x, bool along_y) {
     float size = max(max(abs(m.origin.x), abs(m.origin.y)), abs(m.origin.z));
     float speed = max(max(abs(m.direction.x), abs(m.direction.y)), abs(m.direction.z));
     precise vec3 p = m.origin + t * m.direction;
     precise float guard = 16.0 * FLOAT_ROUNDING * (size + abs(t) * speed) + 2.0 * t_error * speed;
     if (!(abs(t) * speed < 1.0e30)) {
-        // At infinity only the direction counts.
+        // At infinity the direction alone decides.
         p = m.direction;
         guard = 16.0 * FLOAT_ROUNDING * speed;
     }
@@ -71,7 +78,7 @@ uint march_touched(CellMarch m, float t, float t_error, bool along_x, bool along
     return bits & ~(1u << 4);
 }
 
-// Finds the exit of the ray from the current cell, and the neighbours that it touches at the exit.
+// Finds where the ray leaves the current cell, and which neighbours it touches there.
 void march_find_exit(inout CellMarch m) {
     float error_x;
     float error_y;
@@ -82,7 +89,7 @@ void march_find_exit(inout CellMarch m) {
     float ty = m.step_direction.y == 0 ? MARCH_INFINITY
         : march_crossing(cell_boundary(next_y, m.resolution), m.origin.y, m.direction.y, m.origin.z, m.direction.z, m.step_direction.y, error_y);
     int side = int(m.resolution);
-    // The border is the last cell: there the segment ends and no further step is made.
+    // Cells of the border are the last ones: the segment ends in them.
     bool x_inside = m.step_direction.x > 0 ? m.cell.x < side : m.cell.x > -1;
     bool y_inside = m.step_direction.y > 0 ? m.cell.y < side : m.cell.y > -1;
     m.step_x = x_inside && tx <= ty && tx < m.t_end;
@@ -93,7 +100,7 @@ void march_find_exit(inout CellMarch m) {
     uint touched = march_touched(m, m.t_out, m.error_out, !m.step_x, !m.step_y);
     m.neighbours |= touched;
     m.touched = touched;
-    // For a touched side cell, the cell opposite, beyond the boundary that is crossed, is touched as well.
+    // Besides each touched neighbour, the cell next to it beyond the crossed boundary is touched as well.
     if (m.step_x) {
         m.neighbours |= m.step_direction.x > 0 ? touched << 1 : touched >> 1;
     } else if (m.step_y) {
@@ -101,19 +108,19 @@ void march_find_exit(inout CellMarch m) {
     }
 }
 
-// Returns the cell that the ray is in at t; beyond the face, a cell of the border.
+// Returns the cell that the ray is in at t. Beyond the face it is a cell of the border.
 ivec2 march_cell_at(vec3 origin, vec3 direction, float t, uint resolution) {
     vec3 p = origin + t * direction;
     vec2 q = (p.xy / p.z * 0.5 + 0.5) * float(resolution);
-    // Comparisons with NaN are false: a point at the eye starts in the first cell, and the traversal corrects itself
-    // because steps follow boundaries, not points.
+    // A point at the eye has NaN here and gets the first cell, since comparisons with NaN are false. The
+    // march corrects itself, because steps follow boundaries and not points.
     q = vec2(q.x >= 0.0 ? min(q.x, float(resolution)) : -1.0, q.y >= 0.0 ? min(q.y, float(resolution)) : -1.0);
     return ivec2(floor(q));
 }
 
-// Starts a traversal at the begin of a segment; the exit of its first cell is still to be found
-// (march_find_exit). origin and direction are in face space; the segment [t_begin, t_end] lies in the face's
-// pyramid within rounding. t_error bounds the error of t_begin.
+// Begins a march of the segment [t_begin, t_end], which lies in the pyramid of the face within rounding.
+// Origin and direction are in face space; t_error bounds the error of t_begin. The caller finds the exit from
+// the first cell (march_find_exit).
 CellMarch march_place(vec3 origin, vec3 direction, uint resolution, float t_begin, float t_end, float t_error) {
     CellMarch m;
     m.origin = origin;
@@ -136,14 +143,15 @@ CellMarch march_place(vec3 origin, vec3 direction, uint resolution, float t_begi
     return m;
 }
 
-// Starts a traversal with the exit of its first cell.
+// Begins a march, and finds the exit from its first cell.
 CellMarch march_begin(vec3 origin, vec3 direction, uint resolution, float t_begin, float t_end, float t_error) {
     CellMarch m = march_place(origin, direction, resolution, t_begin, t_end, t_error);
     march_find_exit(m);
     return m;
 }
 
-// Steps into the next cell of the ray, whose exit is still to be found; false at the end of the segment.
+// Steps to the next cell; returns false if the segment ends in the current cell. The caller finds the exit
+// from the next cell.
 bool march_step(inout CellMarch m) {
     if (!m.step_x && !m.step_y) {
         return false;
@@ -151,12 +159,12 @@ bool march_step(inout CellMarch m) {
     m.cell += ivec2(m.step_x ? m.step_direction.x : 0, m.step_y ? m.step_direction.y : 0);
     m.t_in = m.t_out;
     m.error_in = m.error_out;
-    // Neighbours touched at the exit of the last cell are touched at the entry of this one.
+    // Neighbours that are touched at the exit of the last cell are touched at the entry of this one.
     m.neighbours = m.touched;
     return true;
 }
 
-// Advances to the next cell of the ray; false at the end of the segment.
+// Steps to the next cell and finds the exit from it; returns false if the segment ends in the current cell.
 bool march_next(inout CellMarch m) {
     if (!march_step(m)) {
         return false;
@@ -165,7 +173,7 @@ bool march_next(inout CellMarch m) {
     return true;
 }
 
-// Takes the next touched neighbour of the current cell; false after the last one.
+// Takes the next neighbour that is to be visited; returns false if there is none left.
 bool march_take_neighbour(inout CellMarch m, out ivec2 cell) {
     cell = m.cell;
     while (m.neighbours != 0u) {

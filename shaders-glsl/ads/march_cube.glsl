@@ -1,8 +1,10 @@
-// Cuts a ray into its segments within the six faces' pyramids and the near region.
+// Cuts a ray into segments, each within the pyramid of one face of a cube around the eye, or within the near
+// region.
 // Reads, writes: nothing.
-// The pyramids of the dominant axis partition space exactly; a ray enters another pyramid only where two coordinates
-// are equal in magnitude, so there are at most seven segments. Around the eye, where rounding no longer tells pyramids
-// apart, a near region is cut out and its triangles are tested one by one.
+// The six pyramids partition space exactly by the axis of the largest coordinate. A ray enters another
+// pyramid only where two coordinates have the same magnitude, so there are at most seven segments. In the
+// near region around the eye, rounding no longer tells the pyramids apart. It is cut out of the ray, and its
+// triangles are tested one by one.
 #ifndef ADS_MARCH_CUBE_GLSL
 #define ADS_MARCH_CUBE_GLSL
 
@@ -10,20 +12,23 @@
 #include "contract/constants.glsl"
 
 #define SEGMENT_NEAR VIEW_NEAR
-// Value in place of a face: the ray is tested against every triangle. Cursors keep faces in three bits, so this is
-// smaller than VIEW_ALL, which is logged for it.
+// Value in place of a face: the ray is tested against every triangle. Cursors store faces in three bits, so
+// this is less than VIEW_ALL, which is logged in its place.
 #define SEGMENT_ALL 7u
-// Largest number of segments: six planes, two sides of the near region, and the end.
+// Largest number of segments: six planes and the two sides of the near region make nine, and one more covers
+// the end of the ray.
 #define SEGMENT_LIMIT 10u
 
+// A segment of a ray.
 struct Segment {
-    uint face;        // 0 to 5, or SEGMENT_NEAR
-    float t_begin;
-    float t_end;
-    float t_error;    // bounds the error of both ends
+    uint face;        // face, 0 to 5, or SEGMENT_NEAR
+    float t_begin;    // t at which the segment begins
+    float t_end;      // t at which it ends
+    float t_error;    // bound of the error of both t
 };
 
-// Returns the t interval of a ray within the box |p|_max <= size, widened by rounding; empty if x > y.
+// Returns the interval of t in which a ray is within the box |p|_max <= size, widened by rounding; x > y if
+// there is none.
 vec2 near_region_interval(vec3 origin, vec3 direction, float size) {
     float t0 = -uintBitsToFloat(0x7F800000u);
     float t1 = uintBitsToFloat(0x7F800000u);
@@ -45,7 +50,8 @@ vec2 near_region_interval(vec3 origin, vec3 direction, float size) {
     return vec2(t0 - slack, t1 + slack);
 }
 
-// Returns the smallest crossing of the planes x=+-y, y=+-z, z=+-x after t.
+// Returns the smallest t after the given one at which the ray crosses a plane x = +-y, y = +-z or z = +-x;
+// infinity if there is none.
 float segment_crossing_after(vec3 o, vec3 d, float t) {
     float next = uintBitsToFloat(0x7F800000u);
     for (int i = 0; i < 3; i++) {
@@ -59,8 +65,8 @@ float segment_crossing_after(vec3 o, vec3 d, float t) {
     return next;
 }
 
-// Returns the segment that begins at t. origin is relative to the eye; `near` is the ray's t interval in the
-// near region.
+// Returns the segment that begins at t. The origin is relative to the eye; `near` is the ray's interval of t
+// within the near region.
 Segment segment_at(vec3 origin, vec3 direction, float t, float t_max, vec2 near) {
     Segment segment;
     segment.t_begin = t;
@@ -70,8 +76,9 @@ Segment segment_at(vec3 origin, vec3 direction, float t, float t_max, vec2 near)
     segment.t_end = min(next, t_max);
     float size = max(max(abs(origin.x), abs(origin.y)), abs(origin.z));
     float speed = max(max(abs(direction.x), abs(direction.y)), abs(direction.z));
-    // Any t within the segment gives the face. Far from the eye, rounding exceeds the distance of a ray that runs
-    // almost along a seam from that seam, so the point is taken no farther away than the ray has already reached.
+    // Any point within the segment tells the face. The point is not taken farther away than the ray has come
+    // so far: far from the eye, rounding exceeds the distance between a seam and a ray that runs almost along
+    // it.
     float middle = segment.t_end < uintBitsToFloat(0x7F800000u) ? 0.5 * (t + segment.t_end) : t + 1.0 + abs(t);
     float reach = size / speed;
     middle = reach > 0.0 ? min(middle, t + abs(t) + reach) : middle;

@@ -1,28 +1,31 @@
-// Traverses the cells of a regular grid that a ray crosses (3D-DDA), by t, in closed form.
+// Marches a ray through the cells of a regular grid (3D-DDA), from one plane between cells to the next.
 // Reads, writes: nothing.
-// Source: Amanatides and Woo 1987, with t of each boundary plane computed anew instead of accumulated
-// and with the neighbours that a ray touches within rounding visited as well, so that the visited
-// cells are a superset of the exact ones. Everything is in grid units: cell i spans [i, i + 1].
+// Source: Amanatides and Woo 1987. Here t of each plane is computed from the plane's number instead of being
+// accumulated, and neighbours that the ray touches within rounding are visited as well, so that the visited
+// cells include all that the exact ray crosses. Coordinates are in grid units: cell i spans [i, i + 1].
 #ifndef ADS_MARCH_GRID_GLSL
 #define ADS_MARCH_GRID_GLSL
 
+// The march of a ray through a grid.
 struct GridMarch {
     vec3 origin;          // grid units
-    vec3 direction;
-    vec3 inverse;         // 1 / direction, unused where a component is zero
-    ivec3 size;           // cells per axis
-    float t_end;
-    ivec3 cell;
-    float t_in;
-    float t_out;
-    float error_in;       // bounds of the errors of t_in and t_out
-    float t_error;
-    int entry_axis;       // the boundary that t_in belongs to; -1 in the first cell
-    int step_axis;        // -1 in the last cell
-    uint neighbours;      // bits of 3x3x3 cells around `cell` that are still to be visited as well
+    vec3 direction;       // grid units per unit of t
+    vec3 inverse;         // 1 / direction; 0 where a component is 0
+    ivec3 size;           // number of cells along each axis
+    float t_end;          // where the march ends: the ray leaves the grid, or ends
+    ivec3 cell;           // the current cell
+    float t_in;           // t at which the ray enters the current cell
+    float t_out;          // t at which it leaves the cell
+    float error_in;       // bound of the error of t_in
+    float t_error;        // bound of the error of t_out
+    int entry_axis;       // axis across which the ray entered the cell; -1 in the first cell
+    int step_axis;        // axis across which it leaves the cell; -1 in the last cell
+    // neighbours of the cell that are still to be visited, a bit per cell of the 3x3x3 cells around it
+    uint neighbours;
 };
 
-// Returns bits of the neighbours whose boundary the point at t touches within rounding.
+// Says which neighbours of the current cell the ray touches at t within rounding, as bits of the 3x3x3 cells
+// around it. Boundaries across `skip_axis` are left out.
 uint grid_touched(GridMarch m, float t, int skip_axis) {
     ivec3 side = ivec3(0);
     float largest = max(max(abs(m.origin.x), abs(m.origin.y)), abs(m.origin.z));
@@ -45,8 +48,8 @@ uint grid_touched(GridMarch m, float t, int skip_axis) {
     return bits;
 }
 
-// Returns a bound of the error of t at the ray's crossing of a boundary across `axis`; -1 means the end of
-// the traversal, which is not a boundary.
+// Returns a bound of the error of t at which the ray crosses a plane across `axis`. For axis -1, t is the end
+// of the march and not a crossing.
 float grid_crossing_error(GridMarch m, float t, int axis) {
     float d = axis >= 0 ? abs(m.inverse[axis]) * abs(m.origin[axis]) : 0.0;
     return FLOAT_ROUNDING * (8.0 * abs(t) + 2.0 * d);
@@ -76,7 +79,7 @@ void grid_find_exit(inout GridMarch m) {
     }
 }
 
-// Starts a traversal of [t_begin, t_end]; false if the ray does not intersect the grid.
+// Begins a march of [t_begin, t_end]; returns false if the ray does not intersect the grid.
 bool grid_begin(vec3 origin, vec3 direction, ivec3 size, float t_begin, float t_end, out GridMarch m) {
     m.origin = origin;
     m.direction = direction;
@@ -132,8 +135,8 @@ bool grid_next(inout GridMarch m) {
     return true;
 }
 
-// Moves a traversal started by grid_begin to where an earlier one of the same ray paused, given its `cell`, `t_in`,
-// `entry_axis` and `neighbours`.
+// Moves a march that grid_begin has begun to where an earlier march of the same ray paused, given the cell,
+// t_in, entry_axis and neighbours that the earlier march had.
 void grid_resume(inout GridMarch m, ivec3 cell, float t_in, int entry_axis, uint neighbours) {
     m.cell = cell;
     m.t_in = t_in;

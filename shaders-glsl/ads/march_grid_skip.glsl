@@ -1,14 +1,14 @@
-// Skips a block of cells of a regular grid in one step, from the current cell of a traversal to the cell behind the
-// block.
+// Skips a block of cells of a regular grid in one step, to the cell behind the block.
 // Reads, writes: nothing.
-// Source: as ads/march_skip.glsl, for the march of ads/march_grid.glsl, whose state is the same bit for bit with skips and
-// without.
+// Source: as ads/march_skip.glsl, for the march of ads/march_grid.glsl. With skips, the march has the same
+// state, bit for bit, as without, in every cell that it visits.
 #ifndef ADS_MARCH_GRID_SKIP_GLSL
 #define ADS_MARCH_GRID_SKIP_GLSL
 
 #include "ads/march_grid.glsl"
 
-// True if a point touches, within `guard`, a side of the block from `first` to `last` that has cells behind it.
+// True if a point touches, within `guard`, a side of the block from `first` to `last`, unless that is a side
+// of the grid.
 bool grid_touches_block(GridMarch m, ivec3 first, ivec3 last, vec3 p, float guard) {
     bvec3 below = lessThanEqual(abs(p - vec3(first)), vec3(guard));
     bvec3 above = lessThanEqual(abs(p - vec3(last + 1)), vec3(guard));
@@ -22,11 +22,11 @@ bool grid_touches_block(GridMarch m, ivec3 first, ivec3 last, vec3 p, float guar
     return false;
 }
 
-// Advances a traversal whose neighbours are all taken to the cell behind the block of 2^level cells along a
-// side that contains its cell; sets `ended` if the traversal ends in the block. Returns false, with nothing
-// changed, if one step leads out of the block, or if the ray touches, within rounding, cells beside the block
-// on its way or an edge at its exit: a traversal without skips visits these cells, or rounding decides where
-// it goes on.
+// Skips the block of 2^level cells along a side that contains the current cell. All neighbours of the current
+// cell must have been taken. The march goes on in the cell behind the block; `ended` is set if it ends within
+// the block. Returns false, and changes nothing, if one step leaves the block anyway, or if the ray touches,
+// within rounding, cells beside the block on its way or another boundary at its exit: a march without skips
+// visits these cells, or rounding decides how it goes on.
 bool grid_take_skip_exactly(inout GridMarch m, uint level, out bool ended) {
     ended = false;
     if (level == 0u || m.step_axis < 0) {
@@ -39,7 +39,7 @@ bool grid_take_skip_exactly(inout GridMarch m, uint level, out bool ended) {
     if (stepped < first[m.step_axis] || stepped > last[m.step_axis]) {
         return false;
     }
-    // The boundary by which the ray exits is found by the expression of grid_find_exit.
+    // The plane by which the ray leaves the block is found by the expression of grid_find_exit.
     float t = m.t_end;
     int exit_axis = -1;
     for (int axis = 0; axis < 3; axis++) {
@@ -52,7 +52,7 @@ bool grid_take_skip_exactly(inout GridMarch m, uint level, out bool ended) {
             }
         }
     }
-    // These are the cell from which the ray exits, and its entry into that cell.
+    // The cell from which the ray leaves the block, and t at which it enters that cell.
     vec3 p_out = m.origin + t * m.direction;
     ivec3 left = ivec3(floor(p_out));
     if (exit_axis >= 0) {
@@ -78,8 +78,8 @@ bool grid_take_skip_exactly(inout GridMarch m, uint level, out bool ended) {
     float largest = max(max(abs(m.origin.x), abs(m.origin.y)), abs(m.origin.z));
     float speed = max(max(abs(m.direction.x), abs(m.direction.y)), abs(m.direction.z));
     float guard = 2.0 * (16.0 * FLOAT_ROUNDING * (largest + max(abs(t), abs(m.t_out)) * speed) + 2.0 * error * speed);
-    // Each coordinate only grows or only falls: a side that is touched neither where the ray enters the next cell nor where
-    // it is last in the block is not touched between.
+    // Each coordinate only grows or only falls along the ray. So a side that the ray touches neither where it
+    // enters the next cell nor where it enters its last cell in the block is not touched in between.
     if (grid_touches_block(m, first, last, m.origin + m.t_out * m.direction, guard)) {
         return false;
     }

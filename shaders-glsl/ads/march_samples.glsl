@@ -1,24 +1,27 @@
-// Marches a segment in steps of equal length on the screen, as the MMRT paper does.
+// Marches a segment of a ray in steps of equal length on the screen, as the MMRT paper does.
 // Reads, writes: nothing.
-// Source: MMRT section 3.4, with its jitter "using a fixed offset per ray"; McGuire and Mara 2014. Each sample tests one cell against the depths of
-// its step; cells between samples are not visited, which is the published approximation.
-// Steps are taken between fixed end points, 1/z being linear on the screen; nothing is accumulated.
+// Source: MMRT section 3.4, with its jitter "using a fixed offset per ray"; McGuire and Mara 2014. Each
+// sample stands for one cell, which is tested against the depths of the sample's step. Cells between samples
+// are not visited: this is the published approximation.
+// Steps divide the segment between its two end points, since 1/z is linear on the screen; nothing is
+// accumulated.
 #ifndef ADS_MARCH_SAMPLES_GLSL
 #define ADS_MARCH_SAMPLES_GLSL
 
 #include "contract/random_words.glsl"
 #include "ads/views.glsl"
 
+// The samples of a segment.
 struct SampleMarch {
-    vec2 place_begin;     // cells
-    vec2 place_end;
-    float z_begin;        // depth at both ends, metres, positive
-    float z_end;
-    float t_begin;
-    float t_end;
-    uint resolution;
-    uint count;           // samples
-    float offset;         // of a sample within its step, as a fraction of the step
+    vec2 place_begin;     // place on the screen where the segment begins, in cells
+    vec2 place_end;       // place on the screen where it ends, in cells
+    float z_begin;        // depth where the segment begins, metres, positive
+    float z_end;          // depth where it ends, metres, positive
+    float t_begin;        // t where it begins
+    float t_end;          // t where it ends
+    uint resolution;      // cells along a side of the face
+    uint count;           // number of samples
+    float offset;         // place of a sample within its step, as a fraction of the step
 };
 
 // Returns the jitter of a ray, a fraction of a step in [0, 1): a hash of the ray's bits.
@@ -27,9 +30,9 @@ float samples_jitter(vec3 origin, vec3 direction) {
     return random_unit(random_words(uvec4(words ^ floatBitsToUint(direction), 1u)).x);
 }
 
-// Begins a march; origin and direction are in face space, and the segment lies in the face's pyramid.
-// `jitter` places the samples within steps that are longer than a cell; in shorter steps they are in the
-// middle.
+// Begins a march. Origin and direction are in face space, and the segment lies in the pyramid of the face.
+// `samples` is the largest number of samples. If steps are longer than a cell, `jitter` is the place of
+// samples within steps; in shorter steps samples are in the middle.
 SampleMarch samples_begin(vec3 origin, vec3 direction, uint resolution, float t_begin, float t_end, uint samples, float jitter) {
     SampleMarch m;
     vec3 p = origin + t_begin * direction;
@@ -43,7 +46,8 @@ SampleMarch samples_begin(vec3 origin, vec3 direction, uint resolution, float t_
     m.t_end = t_end;
     m.resolution = resolution;
     vec2 span = abs(m.place_end - m.place_begin);
-    // A step is one cell along the longer axis, or longer if the number of samples would not be enough.
+    // A step is one cell long along the longer axis, or longer if that would take more than `samples`
+    // samples.
     float cells = ceil(max(span.x, span.y));
     m.count = uint(clamp(cells, 1.0, float(samples)));
     m.offset = cells > float(samples) ? jitter : 0.5;
@@ -57,7 +61,7 @@ float samples_t(SampleMarch m, float share) {
     return (m.t_begin * near_weight + m.t_end * far_weight) / (near_weight + far_weight);
 }
 
-// Returns the cell of sample `i` and the t interval of its step.
+// Returns the cell of sample `i`, and the interval of t of its step.
 void samples_cell(SampleMarch m, uint i, out ivec2 cell, out float t_in, out float t_out) {
     float step_share = 1.0 / float(m.count);
     vec2 place = mix(m.place_begin, m.place_end, (float(i) + m.offset) * step_share);

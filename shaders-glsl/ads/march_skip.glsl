@@ -1,22 +1,26 @@
-// Skips a block of cells in one step, from the current cell of a traversal to the cell behind the block.
+// Skips a block of cells of a face in one step, to the cell behind the block.
 // Reads, writes: nothing.
-// As in ads/march_cells.glsl the exit is found in closed form, and the axis of the exit gets its index
-// exactly. The other index is found from the point there, as at the start of a traversal, with all cells that the
-// point touches within rounding; or the block is not skipped where it touches any, for structures whose hits depend
-// on the cell in which a ray is.
+// As in ads/march_cells.glsl, the exit from the block follows from the boundaries of the block. Across the
+// boundary by which the ray leaves the block, the index of the next cell is exact. Along the other axis, the
+// index follows from the exit point. There are two forms. march_take_skip visits all cells that the exit
+// point touches within rounding, as at the start of a march. march_take_skip_exactly does not skip the block
+// if the exit point touches another boundary; structures whose hits depend on the cell that a ray is in need
+// this.
 #ifndef ADS_MARCH_SKIP_GLSL
 #define ADS_MARCH_SKIP_GLSL
 
 #include "ads/march_cells.glsl"
 
-// Skip over the cells from `first` to `last`, which include the current one, and the ray's exit from them.
+// A skip over the cells from `first` to `last`, which contain the current cell.
 struct MarchSkip {
-    ivec2 first;
-    ivec2 last;
-    float t_out;
-    float error_out;
-    bool step_x;          // which side it exits by; both false: the segment ends in the block
-    bool step_y;
+    ivec2 first;          // first cell of the block
+    ivec2 last;           // last cell of the block
+    float t_out;          // t at which the ray leaves the block
+    float error_out;      // bound of the error of t_out
+    // true if the ray leaves the block by a boundary along x; the segment ends in the block if step_x and
+    // step_y are false
+    bool step_x;
+    bool step_y;          // true if the ray leaves the block by a boundary along y
 };
 
 // Returns a skip over the current cell alone.
@@ -24,6 +28,7 @@ MarchSkip march_skip_of_one(CellMarch m) {
     return MarchSkip(m.cell, m.cell, m.t_out, m.error_out, m.step_x, m.step_y);
 }
 
+// Returns a skip over the cells from `first` to `last`.
 MarchSkip march_skip_over(CellMarch m, ivec2 first, ivec2 last) {
     float error_x;
     float error_y;
@@ -43,14 +48,14 @@ MarchSkip march_skip_over(CellMarch m, ivec2 first, ivec2 last) {
     return MarchSkip(first, last, max(t, m.t_in), error_out, step_x, step_y);
 }
 
-// Returns a skip over the block of 2^level cells along a side that contains the current cell; blocks are
+// Returns a skip over the block of 2^level cells along a side that contains the current cell. Blocks are
 // counted from the border on.
 MarchSkip march_skip_over_block(CellMarch m, uint level) {
     ivec2 first = ((m.cell + 1) >> int(level) << int(level)) - 1;
     return march_skip_over(m, first, min(first + (1 << int(level)) - 1, ivec2(m.resolution)));
 }
 
-// Returns the cell that a ray enters at its exit from a block, or in which it ends, within rounding.
+// Returns the cell that the ray enters where it leaves the block, or in which it ends, within rounding.
 ivec2 march_skip_to(CellMarch m, MarchSkip skip) {
     bvec2 up = greaterThan(m.step_direction, ivec2(0));
     ivec2 cell = mix(march_cell_at(m.origin, m.direction, skip.t_out, m.resolution), m.cell, equal(m.step_direction,
@@ -59,20 +64,20 @@ ivec2 march_skip_to(CellMarch m, MarchSkip skip) {
     return ivec2(skip.step_x ? over.x : cell.x, skip.step_y ? over.y : cell.y);
 }
 
-// Returns the cell in which a segment ends that does not exit the block; the cell beyond a boundary if
-// rounding allows that it was crossed.
+// Returns the cell in which a segment that does not leave the block ends. If rounding allows that the last
+// boundary was crossed, returns the cell beyond it.
 ivec2 march_skip_end(CellMarch m, MarchSkip skip) {
     CellMarch last = m;
     last.cell = clamp(march_skip_to(m, skip), skip.first, skip.last);
     uint touched = march_touched(last, skip.t_out, skip.error_out, true, true);
-    // These bits are those of the cells in other columns, and in other rows.
+    // The masks select the bits of neighbours in other columns, and in other rows.
     ivec2 farther = ivec2((touched & 0x16Du) != 0u ? 1 : 0, (touched & 0x1C7u) != 0u ? 1 : 0);
     return clamp(last.cell + farther * m.step_direction, skip.first, skip.last);
 }
 
-// Returns a bound of the errors of all t at which a traversal crosses boundaries up to a cell; `t` is the
-// largest of them. The error at a boundary between two others is no larger than theirs. The bound is infinite
-// if the ray runs along a boundary.
+// Returns a bound of the errors of all t at which a march crosses boundaries on the way to `cell`; `t` is the
+// largest of these t. The error at a boundary between two others is no larger than the errors at these, so it
+// is enough to look at the first and last. The bound is infinite if the ray runs along a boundary.
 float march_skip_error(CellMarch m, ivec2 cell, float t) {
     float error = 0.0;
     for (int axis = 0; axis < 2; axis++) {
@@ -88,9 +93,9 @@ float march_skip_error(CellMarch m, ivec2 cell, float t) {
     return error;
 }
 
-// Advances to the cell behind the block, with the same state, bit for bit, as a traversal without skips has there; the
-// exit of that cell is still to be found. False, with nothing changed, where rounding does not decide that state
-// because the ray exits the block where it touches another boundary.
+// Moves the march to the cell behind the block, with the same state, bit for bit, as a march without skips
+// has there. The caller finds the exit from that cell. Returns false, and changes nothing, if rounding leaves
+// that state open because the ray touches another boundary where it leaves the block.
 bool march_take_skip_exactly(inout CellMarch m, MarchSkip skip) {
     CellMarch next = m;
     next.cell = march_skip_to(m, skip);
@@ -99,7 +104,7 @@ bool march_take_skip_exactly(inout CellMarch m, MarchSkip skip) {
     left.cell = next.cell - step_cells;
     bool within = all(greaterThanEqual(left.cell, skip.first)) && all(lessThanEqual(left.cell, skip.last))
         && all(greaterThanEqual((left.cell - m.cell) * m.step_direction, ivec2(0)));
-    // The crossed boundary is touched from both sides; no other boundary may be touched.
+    // The crossed boundary is touched from both sides. No other boundary may be touched.
     int crossed = step_cells.x + 3 * step_cells.y;
     uint touched = march_touched(next, skip.t_out, skip.error_out, true, true) & ~(1u << (4 - crossed))
         | march_touched(left, skip.t_out, skip.error_out, true, true) & ~(1u << (4 + crossed));
@@ -114,13 +119,13 @@ bool march_take_skip_exactly(inout CellMarch m, MarchSkip skip) {
     return true;
 }
 
-// Advances to the cell behind the block; false if the segment ends in the block.
+// Moves the march to the cell behind the block; returns false if the segment ends in the block.
 bool march_take_skip(inout CellMarch m, MarchSkip skip) {
     if (!skip.step_x && !skip.step_y) {
         return false;
     }
     ivec2 cell = march_skip_to(m, skip);
-    // The cell is never before the current one, and not beyond the block.
+    // The next cell does not lie before the current one, nor beyond the block.
     bvec2 up = greaterThan(m.step_direction, ivec2(0));
     ivec2 inside = clamp(cell, mix(skip.first, m.cell, up), mix(m.cell, skip.last, up));
     m.cell = ivec2(skip.step_x ? cell.x : inside.x, skip.step_y ? cell.y : inside.y);

@@ -1,22 +1,22 @@
-// Tests whether a triangle reaches into a cell of a face, with its depths there. May accept more than
-// is exact, never less.
+// Tests whether a triangle reaches into a cell of a face, and finds its depths there. The test may accept
+// more cells than is exact, never fewer.
 // Reads, writes: nothing.
-// Source: DIRT section 3.2 clips each primitive to the tile. Here the depth follows from the plane over
-// the whole tile and from the corners: 1/z is affine in x/z and y/z.
+// Source: DIRT section 3.2 clips each primitive to the tile. Here the depths follow from the triangle's plane
+// over the whole tile, where 1/z is affine in x/z and y/z, and from the corners of the triangle.
 #ifndef ADS_OVERLAP_GLSL
 #define ADS_OVERLAP_GLSL
 
 #include "ads/coverage.glsl"
 
-// True if all corners lie beyond a side of the cell: below the lower or above the upper end of x/z.
+// True if all corners lie beyond the same side of the cell: their x/z is below `lower`, or above `upper`.
 bool overlap_beyond(vec3 x, vec3 z, float lower, float upper) {
     precise vec3 at_lower = lower * z;
     precise vec3 at_upper = upper * z;
     return all(lessThan(x, at_lower)) || all(greaterThan(x, at_upper));
 }
 
-// Returns the plane through the eye and the edge pq, and a bound of the rounding of its value anywhere in the
-// face.
+// Returns the plane through the eye and the edge pq, and a bound of the rounding of the plane's value
+// anywhere in the face.
 vec3 overlap_edge(vec3 p, vec3 q, out float slack) {
     precise vec3 span = q - p;
     precise vec3 edge = p.yzx * span.zxy - p.zxy * span.yzx;
@@ -28,22 +28,23 @@ vec3 overlap_edge(vec3 p, vec3 q, out float slack) {
     return edge;
 }
 
-// Values of a triangle that its tests against all cells of a face share.
+// What the tests of one triangle against all cells of a face share.
 struct Overlap {
-    vec3 x;               // of the corners, face space
-    vec3 y;
-    vec3 z;
-    vec3 edge_ab;         // planes through the eye
-    vec3 edge_bc;
-    vec3 edge_ca;
-    vec3 edge_slack;      // bounds of the rounding of their values
-    vec3 normal;
-    vec3 normal_error;
-    float facing;         // of the plane: normal . corner
-    float facing_error;
+    vec3 x;               // x of the three corners, face space, metres
+    vec3 y;               // y of the three corners
+    vec3 z;               // z of the three corners
+    vec3 edge_ab;         // plane through the eye and the edge from a to b
+    vec3 edge_bc;         // plane through the eye and the edge from b to c
+    vec3 edge_ca;         // plane through the eye and the edge from c to a
+    vec3 edge_slack;      // bounds of the rounding of the values of the three planes
+    vec3 normal;          // normal of the triangle
+    vec3 normal_error;    // bound of the error of each of its components
+    // dot(normal, corner), which is the same for all corners; its sign tells the winding
+    float facing;
+    float facing_error;   // bound of its error
 };
 
-// Begins the tests of a triangle; a, b, c are in face space.
+// Begins the tests of a triangle, whose corners are in face space.
 Overlap overlap_begin(vec3 a, vec3 b, vec3 c) {
     Overlap o;
     o.x = vec3(a.x, b.x, c.x);
@@ -65,7 +66,8 @@ Overlap overlap_begin(vec3 a, vec3 b, vec3 c) {
     return o;
 }
 
-// Returns the value of an edge's plane at the cell's centre, and a bound of its change elsewhere in the cell.
+// Returns the value of an edge's plane at the centre of a cell, and a bound of the change of this value
+// within the cell.
 float overlap_edge_at(vec3 edge, vec3 center, float half_side, float rounding, out float slack) {
     precise float value = edge.x * center.x + edge.y * center.y + edge.z;
     precise float reach = half_side * (abs(edge.x) + abs(edge.y)) + rounding;
@@ -73,10 +75,10 @@ float overlap_edge_at(vec3 edge, vec3 center, float half_side, float rounding, o
     return value;
 }
 
-// True if the triangle reaches, in front of the eye, into the square of cells with this centre (x/z, y/z, 1)
-// and half side. depths receives its smallest and largest depth there, without the rounding of its corners,
-// and at least half of near_size. Every step is precise, since passes that count and passes that store must
-// decide alike.
+// True if the triangle reaches, in front of the eye, into the square with this centre (x/z, y/z, 1) and this
+// half side. `depths` gets the smallest and the largest depth of the triangle there, at least half of
+// near_size; the rounding of the corners is not included. All expressions are precise, since the passes that
+// count and those that store must agree.
 bool overlap_at(float near_size, Overlap o, vec3 center, float half_side, out vec2 depths) {
     depths = vec2(0.0);
     precise vec2 lower = center.xy - half_side;
@@ -89,15 +91,15 @@ bool overlap_at(float near_size, Overlap o, vec3 center, float half_side, out ve
     vec3 value = vec3(overlap_edge_at(o.edge_ab, center, half_side, o.edge_slack.x, slack.x),
         overlap_edge_at(o.edge_bc, center, half_side, o.edge_slack.y, slack.y),
         overlap_edge_at(o.edge_ca, center, half_side, o.edge_slack.z, slack.z));
-    // Comparisons are written so that a value that overflowed counts as inside.
+    // Comparisons have a form in which a value that overflowed counts as inside.
     bool front = !any(lessThan(value, -slack));
     bool back = !any(greaterThan(value, slack));
     if (!front && !back) {
         return false;
     }
     depths = vec2(min(o.z.x, min(o.z.y, o.z.z)), max(o.z.x, max(o.z.y, o.z.z)));
-    // Close to edge-on neither the winding nor the plane is certain: both windings count then, and the depths
-    // are those of the corners.
+    // Close to edge-on, rounding leaves winding and plane open. Then both windings count, and the depths are
+    // those of the corners.
     if (abs(o.facing) > 64.0 * o.facing_error) {
         if (o.facing > 0.0 ? !front : !back) {
             return false;
@@ -118,8 +120,8 @@ bool overlap_at(float near_size, Overlap o, vec3 center, float half_side, out ve
             depths.y = min(depths.y, farthest_depth);
         }
     }
-    // Anything nearer than the near region is tested with the near-region list, and positive depths order like their
-    // bits.
+    // Parts at depths below half the near region are tested through the near-region list. Positive depths are
+    // ordered as their bits are.
     depths.x = max(depths.x, 0.5 * near_size);
     depths.y = max(depths.y, depths.x);
     return true;

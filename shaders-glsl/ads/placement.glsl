@@ -1,6 +1,7 @@
-// Places views and cells for the bounds of a geometry and an eye: functions of values, for the header pass of
-// each structure (`from_bounds.glsl`).
-// Reads, writes: nothing. Metres relative to the frame origin.
+// Places views and cells, given the bounds of a geometry and an eye. The header pass of each structure calls
+// these functions (`from_bounds.glsl`).
+// Reads, writes: nothing.
+// Positions are in metres relative to the frame origin.
 // Source: none; docs/core.md.
 #ifndef ADS_PLACEMENT_GLSL
 #define ADS_PLACEMENT_GLSL
@@ -11,15 +12,16 @@ float largest_axis(vec3 v) {
     return max(v.x, max(v.y, v.z));
 }
 
-// Returns the maximum distance of a box from the origin along an axis.
+// Returns the largest distance of a box from the origin along an axis.
 float box_reach(vec3 lower, vec3 upper) {
     return max(largest_axis(abs(lower)), largest_axis(abs(upper)));
 }
 
-// Returns the centre of faces for an eye and geometry within bounds: the eye itself if it is within them or
-// if they are flat; otherwise the point of about their inner half that is nearest to the eye, moved back
-// towards it as far as rays from there need. From an eye outside, all geometry lies in a part of the faces:
-// the farther away the eye, the fewer tiles.
+// Returns the centre of faces for an eye and for geometry within bounds. It is the eye itself if the eye is
+// within the bounds or the bounds are flat. Otherwise it is the point nearest to the eye within about the
+// inner half of the bounds, moved back towards the eye as far as rays from the eye need. Seen from an eye
+// outside, all geometry would lie in a small part of the faces, and the farther away the eye, the fewer tiles
+// it would fill.
 vec3 centre_within(vec3 eye, vec3 lower, vec3 upper) {
     precise vec3 extent = upper - lower;
     float longest = largest_axis(extent);
@@ -35,48 +37,49 @@ vec3 centre_within(vec3 eye, vec3 lower, vec3 upper) {
     precise vec3 to_sides = max(upper - within, within - lower);
     float away = largest_axis(abs(from_eye));
     float reach = largest_axis(to_sides);
-    // The geometry is at least as far from the centre as the centre was moved, and as `reach`.
+    // The largest distance of the geometry from the centre is at least `reach`, and at least the distance by
+    // which the centre is moved.
     precise float back = max(min(away - PLACEMENT_EYE_LIMIT * reach, away / (PLACEMENT_EYE_LIMIT + 1.0)), 0.0);
     precise vec3 centre = within + from_eye * (back / away);
     return centre;
 }
 
-// Returns the centre of faces for geometry within bounds, wherever the eye is: about the middle of the
-// bounds, and for flat bounds beside them, at a distance of half their longest side.
+// Returns the centre of faces for geometry within bounds, for any eye: about the middle of the bounds. Along
+// an axis in which the bounds are flat, it lies beside them, at a distance of half their longest side.
 vec3 centre_of_bounds(vec3 lower, vec3 upper) {
     precise vec3 extent = upper - lower;
     float longest = largest_axis(extent);
     precise vec3 middle = (1.0 - PLACEMENT_MIDDLE) * lower + PLACEMENT_MIDDLE * upper;
     precise vec3 beside = upper + 0.5 * longest;
-    // A side whose length overflows counts as thick.
+    // A side whose length overflows does not count as flat.
     bvec3 is_flat = lessThan(extent, vec3(longest <= PLACEMENT_LONGEST ? PLACEMENT_FLATTEST * longest : 0.0));
     return mix(middle, beside, is_flat);
 }
 
-// Returns the lower corner (xyz) and side (w) of a cube that holds the bounds, a little wider than their
-// longest side, so that no side of the geometry lies on a side of the cube.
+// Returns the lower corner (xyz) and the side (w) of a cube that holds the bounds. The cube is a little wider
+// than the longest side, so that no side of the geometry lies on a side of the cube.
 vec4 cube_placement(vec3 lower, vec3 upper) {
     precise float widened = max(largest_axis(upper - lower) * PLACEMENT_WIDENED, PLACEMENT_SMALLEST);
-    // Rounding must not move the corner into the geometry, and may move it away from the far end.
+    // Rounding must not move the corner into the geometry, and it may move the corner away from the far end.
     precise vec3 corner = min(0.5 * lower + 0.5 * upper - 0.5 * widened, lower);
     precise float rounded = max(widened, largest_axis(upper - corner));
     return vec4(corner, uintBitsToFloat(floatBitsToUint(rounded) + 1u));
 }
 
-// Cells of one box along the axes of the world, as ads/box_cells.glsl uses them.
+// The placement of a box of cells along the axes of the world, for ads/box_cells.glsl.
 struct BoxPlacement {
-    vec3 centre;          // middle of the bounds
-    float reach;          // half the longest side of the bounds; more where rays start far away
-    float rounding;       // how far a ray may be from a triangle that it hits
-    vec3 lower;           // corner of the first cell relative to the centre
-    vec3 per_metre;       // cells
+    vec3 centre;          // middle of the bounds, metres
+    float reach;          // half the longest side of the bounds, metres; more if rays start far away
+    float rounding;       // how far a ray may pass from a triangle that it is found to hit, metres
+    vec3 lower;           // lower corner of the first cell, metres relative to the centre
+    vec3 per_metre;       // cells per metre along each axis
 };
 
-// Places this number of cells along each axis, 1 or more, over the bounds, for rays from around the eye and
-// from everywhere within the bounds around them: those of the whole geometry if the cells are of a part. The
-// cells reach PLACEMENT_BELOW margins below the bounds and PLACEMENT_ABOVE above, so that the sides lie well
-// within a cell, and so does the middle. Bounds without thickness, cut into 4 cells, are in the middle of the
-// second.
+// Places `cells` cells along each axis, 1 or more, over the bounds. Rays may start around the eye, and
+// anywhere within the bounds `around`, which are those of the whole geometry if the cells are for a part. The
+// cells reach PLACEMENT_BELOW margins below the bounds and PLACEMENT_ABOVE margins above them, so that
+// neither the sides nor the middle of the bounds lie on a plane between cells. If bounds without thickness
+// are cut into 4 cells, they lie in the middle of the second cell.
 BoxPlacement box_placement(vec3 lower, vec3 upper, vec3 around_lower, vec3 around_upper, uvec3 cells, vec3 eye) {
     precise vec3 centre = 0.5 * lower + 0.5 * upper;
     precise vec3 first = lower - centre;
@@ -91,7 +94,7 @@ BoxPlacement box_placement(vec3 lower, vec3 upper, vec3 around_lower, vec3 aroun
     precise float limit = (2.0 * PLACEMENT_WIDEST_MARGIN / CELL_ROUNDING) * own / most;
     float reach = max(min(away / PLACEMENT_EYE_LIMIT, limit), own);
     precise float rounding = CELL_ROUNDING * reach;
-    // Halves keep the values within the range of numbers.
+    // The values are halved so that their sum does not overflow.
     precise vec3 half_extent = 0.5 * last - 0.5 * first + 0.5 * (PLACEMENT_BELOW + PLACEMENT_ABOVE) * rounding;
     precise vec3 per_metre = 0.5 * vec3(cells) / half_extent;
     precise vec3 corner = first - PLACEMENT_BELOW * rounding;

@@ -1,11 +1,13 @@
-// Declarations of the header and the pools of a structure, and access to them: through the descriptors of
-// STRUCTURE_SET, or (ADDRESSING_ADDRESS) through device addresses, that of the header and those that it holds. Each has
-// one line in the structure's header.glsl or accessors.glsl.
-// Reads, writes: nothing. Stages that only read say so (STRUCTURE_READ_ONLY), because writing from a vertex shader is a device
-// feature of its own.
-// `Name` and `name` are those that the structure's records and functions begin with; the other arguments are:
-//   pool       its name in the header: `lists` of `lists_address`
-//   view       a name for what is in a pool that does not hold words alone
+// Declares the header and the pools of a structure, and reaches them: through the descriptors of
+// STRUCTURE_SET or, if ADDRESSING_ADDRESS is defined, through device addresses. The address of the header is
+// in a push constant, those of the pools are in the header.
+// Reads, writes: nothing.
+// A structure declares its header in one line of its header.glsl, and each pool in one line of its
+// accessors.glsl. Shaders that only read define STRUCTURE_READ_ONLY, because writing from a vertex shader is
+// a device feature of its own.
+// `Name` and `name` are what the structure's records and functions begin with. The other arguments are:
+//   pool       name of the pool in the header: `lists` of `lists_address`
+//   view       a name for the contents of a pool that does not only hold words
 //   place      the binding
 #ifndef ADS_POOLS_GLSL
 #define ADS_POOLS_GLSL
@@ -24,7 +26,8 @@
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) POOL_ACCESS buffer WordAddress { uint words[]; };
 
-// Declares the addresses of a structure, which are unused with descriptors.
+// Declares the reference type of a structure and its header. The reference is the header's device address;
+// with descriptors it is not used.
 #define STRUCTURE_HEADER(Name, name) \
     struct Name##Ref { uvec2 header; }; \
     layout(buffer_reference, scalar, buffer_reference_align = 4) POOL_ACCESS buffer Name##HeaderAddress { Name##Header header; };
@@ -33,10 +36,11 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) POOL_ACCESS buffer 
 // Declares a pool of records.
 #define POOL_RECORDS(name, view, place, Record) \
     layout(buffer_reference, scalar, buffer_reference_align = 4) buffer name##_##view##_address { Record elements[]; };
-// Declares a pool of records that is read as vectors of that many bytes.
+// Declares a pool of records that is read as vectors of `bytes` bytes each.
 #define POOL_VECTORS(name, view, place, Vector, bytes) \
     layout(buffer_reference, scalar, buffer_reference_align = bytes) readonly buffer name##_##view##_address { Vector elements[]; };
 
+// Expressions for the header, the words of a pool, and the elements of a pool that does not only hold words.
 #define STRUCTURE_HEADER_OF(Name, name, s) Name##HeaderAddress(s.header).header
 #define POOL_WORDS_OF(name, pool, structure_header) WordAddress(structure_header.pool##_address).words
 #define POOL_VIEW_OF(name, view, address) name##_##view##_address(address).elements

@@ -1,8 +1,9 @@
-// A queue of rays with their hits and traversal states, one per slot.
+// A queue of rays: one slot per ray holds the ray, its hit, the state of its traversal and, on request, its
+// surface.
 // Reads, writes: the buffers of QUEUE_SET.
-// A slot whose ray has t_max < 0 is inactive and answers a miss at once. Rays that pause are listed
-// and traced again in the next round. A shader selects the slots that later passes work on (queue_select); they
-// do so once ads/queue_take.comp ran.
+// A ray with t_max < 0 makes its slot inactive: its answer is a miss. Rays that pause are listed, and go on
+// in the next round. A shader may select the slots that later passes work on (queue_select); the selection
+// takes effect when ads/queue_take.comp runs.
 #ifndef ADS_QUEUE_GLSL
 #define ADS_QUEUE_GLSL
 
@@ -13,19 +14,21 @@
 #define QUEUE_SET 2
 #endif
 
-// Counts and sums of one queue. Shared, 112 bytes.
+// Counts of one queue. Work is summed where counters are enabled. Shared, 112 bytes.
 struct QueueHeader {
-    uint groups_x;        // indirect dispatch of the next round
+    uint groups_x;        // workgroups of the next round, for an indirect dispatch
     uint groups_y;        // always 1
     uint groups_z;        // always 1
     uint capacity;        // slots of the queue
-    uint round;           // rounds begun for the rays now in the queue
-    uint listed;          // rays to trace in this round (from round 1 on)
+    uint round;           // number of the current round, from 0
+    uint listed;          // rays to trace in this round, if it is not the first
     uint paused;          // rays that paused in this round
-    uint unfinished;      // rays that were still paused after their last round, over all traces since the reset
-    uint not_ready;       // rays traced through a structure that was not complete, over all traces since the reset
-    uint selecting;       // slots selected for the passes after the next take
-    uint cells_low;       // cells visited, low word; work is summed where counters are enabled
+    // rays that were still paused after their last round, over all traces since the last reset
+    uint unfinished;
+    // rays traced through a structure that was not complete, over all traces since the last reset
+    uint not_ready;
+    uint selecting;       // slots selected since the last take
+    uint cells_low;       // cells visited, low word
     uint cells_high;      // cells visited, high word
     uint entries_low;     // list entries read, low word
     uint entries_high;    // list entries read, high word
@@ -33,28 +36,30 @@ struct QueueHeader {
     uint tests_high;      // primitives tested, high word
     uint views_low;       // views entered, low word
     uint views_high;      // views entered, high word
-    uint searched_low;    // cells visited that were not rejected, low word
-    uint searched_high;   // cells visited that were not rejected, high word
-    uint selected_x;      // indirect dispatch over the slots selected
+    uint searched_low;    // cells in which something was read, low word
+    uint searched_high;   // cells in which something was read, high word
+    uint selected_x;      // workgroups of a pass over the selected slots, for an indirect dispatch
     uint selected_y;      // always 1
     uint selected_z;      // always 1
-    uint selected;        // slots selected when they were last taken
-    uint takes;           // times they were taken; its parity says which list holds them
-    uint selected_before; // slots selected when they were taken the time before; their list stays until the next selection
-    uint corrupted;       // list entries with an invalid index, in the structure last traced, since it was built
-    // the same in the parts before it, where that was one of several, and invalid slots in the lists of paused rays
+    uint selected;        // slots in the list that the last take made the selection
+    uint takes;           // number of takes; its parity says which of two lists holds the selection
+    // slots selected at the take before the last one; their list lasts until slots are selected again
+    uint selected_before;
+    uint corrupted;       // invalid indices met in the structure traced last, since it was built
+    // invalid indices met in the parts traced before the last one, and invalid slots in lists of paused rays
     uint corrupted_before;
 };
 
-// One step of a logged traversal; contract/constants.glsl says what a STEP_* kind means by its words. Shared, 28 bytes.
+// One step of a logged traversal. Shared, 28 bytes.
 struct TraceStep {
-    uint kind;                // a STEP_* number; it says what the words after `round` mean
-    uint round;               // the dispatch it was taken in, from 0
-    uint a;                   // the kind's
-    uint b;                   // the kind's
-    uint c;                   // the kind's
-    float t_low;              // the kind's
-    float t_high;             // the kind's
+    // kind of the step, STEP_*, which decides what the words after `round` mean (contract/constants.glsl)
+    uint kind;
+    uint round;               // round in which the step was taken, from 0
+    uint a;                   // depends on the kind
+    uint b;                   // depends on the kind
+    uint c;                   // depends on the kind
+    float t_low;              // depends on the kind
+    float t_high;             // depends on the kind
 };
 
 layout(set = QUEUE_SET, binding = 0, scalar) buffer QueueHeaderBuffer {
@@ -69,37 +74,37 @@ layout(set = QUEUE_SET, binding = 2, scalar) buffer QueueHitBuffer {
 layout(set = QUEUE_SET, binding = 3, scalar) buffer QueueStateBuffer {
     TraceState queue_states[];
 };
-// Lists of `capacity` slots: two lists of paused rays, between which rounds alternate, and two of selected
-// slots, if slots can be selected, between which takes alternate.
+// Lists of `capacity` slots each: two lists of paused rays, between which rounds alternate; and, if slots can
+// be selected, two lists of selected slots, between which takes alternate.
 layout(set = QUEUE_SET, binding = 4, scalar) buffer QueueListBuffer {
     uint queue_list[];
 };
 layout(set = QUEUE_SET, binding = 5, scalar) buffer QueueSurfaceBuffer {
     Surface queue_surfaces[];
 };
-// Work of each slot, if work is counted per ray, otherwise a placeholder.
+// Work of each slot, if work is counted per ray; otherwise a placeholder.
 layout(set = QUEUE_SET, binding = 6, scalar) buffer QueueWorkBuffer {
     RayWork queue_work[];
 };
-// Steps of one slot; a placeholder with capacity 0 unless requested.
+// Steps of the logged slot; a placeholder without room for steps unless steps are requested.
 layout(set = QUEUE_SET, binding = 7, scalar) buffer QueueStepBuffer {
     uint queue_logged_slot;
-    uint queue_step_demand;   // steps taken, also those that did not fit
+    uint queue_step_demand;   // number of steps taken, including those that did not fit
     TraceStep queue_steps[];
 };
 
-// Returns the start, in the lists of a queue, of a list of paused rays or of selected slots; each alternates
-// between two.
+// Returns the place at which the list of the rays that pause in a round begins.
 uint queue_paused_at(uint round, uint capacity) {
     return (round & 1u) * capacity;
 }
 
+// Returns the place at which the list of the slots selected for a take begins.
 uint queue_selected_at(uint take, uint capacity) {
     return (2u + (take & 1u)) * capacity;
 }
 
-// Returns the slot of one invocation of a pass over `domain`: the number of first slots, or DOMAIN_SELECTED.
-// False if there is none.
+// Finds the slot of an invocation in a pass over `domain`, which is a number of first slots or
+// DOMAIN_SELECTED. Returns false if there is none.
 bool queue_slot(uint domain, uint invocation, out uint slot) {
     slot = invocation;
     if (domain != DOMAIN_SELECTED) {
@@ -112,8 +117,8 @@ bool queue_slot(uint domain, uint invocation, out uint slot) {
     return slot < queue_header.capacity;
 }
 
-// Selects a slot of the queue with this header and these lists for the passes after the next take. A slot may be selected
-// once; the order is unspecified.
+// Selects a slot for the passes after the next take, in the queue with this header and these lists. A slot
+// may be selected once. The order of selected slots is not specified.
 #define QUEUE_SELECT(header, lists, slot) \
     LIST_APPEND(header.selecting, header.capacity, lists, queue_selected_at(header.takes + 1u, header.capacity), slot)
 

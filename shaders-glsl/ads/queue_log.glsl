@@ -1,8 +1,8 @@
-// Counts views and cells by the steps of a ray, and writes the steps of one slot of a queue in the order in which they
-// are taken.
-// Reads: the logged slot; geometry. Writes: steps, and their number also where they do not fit. Triangles are logged by
-// their ids.
-// Dead code unless specialisation constant 0 is at least COUNTERS_SUMS, and writing unless it is COUNTERS_STEPS.
+// Counts the views and cells that a ray visits, and writes the steps of one ray of a queue, the logged one,
+// in their order.
+// Reads: the number of the logged slot; geometry. Writes: steps, and their number even if they do not fit.
+// Triangles are logged by their ids. The counts are dead code unless specialisation constant 0 (COUNTERS) is
+// at least COUNTERS_SUMS, and the writing of steps unless it is COUNTERS_STEPS.
 #ifndef ADS_QUEUE_LOG_GLSL
 #define ADS_QUEUE_LOG_GLSL
 
@@ -10,20 +10,21 @@
 #include "contract/trace_state.glsl"
 #include "ads/geometry.glsl"
 
-// True if this invocation's slot is the logged one. Evaluated once per ray, since structures log in many places.
+// True if this invocation's slot is the logged one. Computed once per ray, since structures log in many
+// places.
 bool trace_log_on = false;
 
-// Counts of this dispatch: views entered, and cells visited that were not rejected. A cell is rejected if
-// nothing of its contents is read: it is empty, or its bounds, buckets or mask tell that the ray misses
-// everything in it.
+// Counts of this dispatch: views entered, and cells searched. A cell counts as searched when something in it
+// is read; it does not if it is empty, or if its bounds, buckets or mask tell that the ray misses everything
+// in it.
 uint trace_log_views = 0u;
 uint trace_log_searched = 0u;
-// Flag that is 1 after a cell was visited, until anything in it is read.
+// 1 if a cell was visited and nothing in it has been read yet, else 0.
 uint trace_log_unread = 0u;
-// Number of the view entered last plus one; 0 before the first.
+// Number of the view entered last plus 1; 0 before the first view.
 uint trace_log_entered = 0u;
 
-// Place of the first step of this dispatch.
+// Place of the first step that this dispatch logs.
 uint trace_log_first = 0u;
 
 void trace_log_begin(uint slot) {
@@ -33,8 +34,8 @@ void trace_log_begin(uint slot) {
     }
 }
 
-// Converts triangle numbers of the logged steps to ids. Steps refer to triangles by their numbers in a part,
-// and are converted once for a whole dispatch.
+// Replaces the numbers of triangles in the logged steps by ids. Structures log the numbers that triangles
+// have in a part; they are replaced once, at the end of a dispatch.
 void trace_log_end() {
     if (COUNTERS >= COUNTERS_STEPS && trace_log_on) {
         uint end = min(queue_step_demand, uint(queue_steps.length()));
@@ -47,7 +48,8 @@ void trace_log_end() {
     }
 }
 
-// Counts a step. The kind is a constant wherever steps are logged, so that little of this code remains.
+// Counts a step. The kind is a constant wherever a step is logged, so little of this code remains after
+// compilation.
 void trace_log_count(uint kind) {
     bool reads = kind == STEP_ENTRY || kind == STEP_OCCUPIED;
     trace_log_searched += reads ? trace_log_unread : 0u;
@@ -63,8 +65,8 @@ void trace_log(uint kind, uint a, uint b, uint c, float t_low, float t_high) {
     }
 }
 
-// Logs the view that a ray enters, and counts it. The near region, and all triangles tested one by one, are no views;
-// a segment may end and the next one begin in the same view.
+// Logs that a ray enters a view, and counts the view. The near region and the test of all triangles are no
+// views. A view counts once if one segment ends and the next one begins in it.
 void trace_log_view(uint view, float t_low, float t_high) {
     if (COUNTERS >= COUNTERS_SUMS) {
         if (view != VIEW_NEAR && view != VIEW_ALL) {
@@ -76,7 +78,7 @@ void trace_log_view(uint view, float t_low, float t_high) {
     trace_log(STEP_VIEW, view, 0u, 0u, t_low, t_high);
 }
 
-// Logs and counts a visit to a cell, or to something that a cell holds.
+// Logs and counts a visit to a cell, or the reading of something in the cell.
 void trace_log_visit(uint kind, uint a, uint b, uint c, float t_low, float t_high) {
     if (COUNTERS >= COUNTERS_SUMS) {
         trace_log_count(kind);

@@ -1,7 +1,8 @@
-// Lists the rays of a queue that meet the bounds of a part, as if they had paused before it was traced: the trace of the
-// part goes on from there, and is no work where no ray meets it.
-// Reads: the header of GEOMETRY_SET, the status of the structure over it, rays and hits. Writes: states, the list of paused
-// rays.
+// Lists the rays of a queue that meet the bounds of a part, as if they had paused before the part is traced.
+// The trace of the part goes on from there, so it is no work for rays that do not meet the part.
+// Reads: the header of GEOMETRY_SET, the status of the structure over the part, rays and hits. Writes:
+// states, the list of paused rays.
+// One invocation per slot.
 #version 460
 #include "contract/extensions.glsl"
 #include "ads/bounds_interval.glsl"
@@ -15,15 +16,15 @@ layout(set = 2, binding = 0, scalar) readonly buffer PartStatusBuffer {
     uint part_status[];
 };
 
-// The rays. 12 bytes.
+// The rays, and the part. 12 bytes.
 layout(push_constant, scalar) uniform QueueMeetConstants {
-    uint domain;          // the number of first slots, or DOMAIN_SELECTED
-    uint any_hit;         // 1: rays that have a hit are done
-    uint part;            // whose status it is
+    uint domain;          // number of first slots, or DOMAIN_SELECTED
+    uint any_hit;         // 1: rays that have a hit are finished; 0: they may have a nearer hit in the part
+    uint part;            // number of the part, whose status is read
 } pushed;
 
-// Margin by which a ray may pass the bounds of a triangle that it is tested to hit: 64 units of rounding of
-// its length.
+// Margin of the bounds: 64 units of rounding of lengths and of the origin. A ray may pass the bounds of a
+// triangle by less than that and still be found to hit the triangle.
 #define MEET_MARGIN 0.0000038146973
 
 bool meets_bounds(Ray ray, float t_max) {
@@ -32,7 +33,7 @@ bool meets_bounds(Ray ray, float t_max) {
     vec3 way = max(abs(lower - ray.origin), abs(upper - ray.origin));
     float margin = MEET_MARGIN * (max(way.x, max(way.y, way.z)) + largest_coordinate(ray.origin));
     vec2 interval = bounds_interval(lower - margin, upper + margin, ray.origin, ray.direction, max(ray.t_min, 0.0), t_max);
-    // Comparisons with NaN are false.
+    // The interval is tested in this form because comparisons with NaN are false.
     return !(interval.x > interval.y);
 }
 
@@ -47,7 +48,7 @@ void main() {
         return;
     }
     Ray ray = queue_ray(slot);
-    // A part that is not ready gives no ray an answer.
+    // If the structure over the part is not ready, all rays are listed, so that none of them gets an answer.
     bool is_ready = geometry_is_built(part_status[pushed.part]);
     if (!ray_is_valid(ray) || (is_ready && !meets_bounds(ray, before.t))) {
         return;

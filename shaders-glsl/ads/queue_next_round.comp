@@ -1,5 +1,6 @@
-// Turns the rays that paused into the next round, or counts them as unfinished after the last.
+// Ends a round: rays that paused are traced in the next round, or counted as unfinished after the last round.
 // Reads, writes: the queue's header.
+// One invocation.
 #version 460
 #include "contract/extensions.glsl"
 #include "ads/queue.glsl"

@@ -1,6 +1,7 @@
-// Makes the slots selected so far those that passes over the selection work on, or those of the take before, and
-// begins a new selection.
+// Takes the slots that were selected: passes over DOMAIN_SELECTED work on them from now on, and a new
+// selection begins. Alternatively goes back to the slots of the take before.
 // Reads, writes: the queue's header.
+// One invocation.
 // Source: the work queues of pbrt-v4, section 15.2.
 #version 460
 #include "contract/extensions.glsl"
@@ -8,9 +9,9 @@
 
 layout(local_size_x = 1) in;
 
-// The slots. 4 bytes.
+// Which slots are taken. 4 bytes.
 layout(push_constant, scalar) uniform QueueTakeConstants {
-    uint back;            // 1: those of the take before; 0: those selected since the last one
+    uint back;            // 1: the slots of the take before; 0: the slots selected since the last take
 } pushed;
 
 void main() {
@@ -19,7 +20,7 @@ void main() {
     queue_header.selecting = 0u;
     queue_header.selected = selected;
     queue_header.selected_before = pushed.back != 0u ? 0u : before;
-    // The lists alternate.
+    // The next list is the one with the new selection; of two lists it is also the list of the take before.
     queue_header.takes += 1u;
     queue_header.selected_x = (selected + QUEUE_GROUP_SIZE - 1u) / QUEUE_GROUP_SIZE;
     queue_header.selected_y = 1u;

@@ -1,4 +1,4 @@
-// Counts the work of rays where counters are enabled.
+// Sums the work of rays in the queue's header, where counters are enabled.
 // Reads, writes: the queue's header.
 #ifndef ADS_QUEUE_WORK_GLSL
 #define ADS_QUEUE_WORK_GLSL
@@ -6,7 +6,7 @@
 #include "ads/queue.glsl"
 #include "contract/trace_state.glsl"
 
-// Adds to a 64-bit sum of the header.
+// Adds to a 64-bit sum of the header, of which `name` is the name.
 #define QUEUE_ADD(name, count) { \
     uint before = atomicAdd(queue_header.name##_low, count); \
     if (before + count < before) { \

@@ -1,19 +1,20 @@
-// The depths of a triangle in a cell that it reaches into, of the view that it faces most, as one word by which lists
-// are sorted: their middle, and in its last two bits how far they reach from it.
+// The depths of a triangle in a cell that it reaches into, as one word by which lists are sorted. The word is
+// the middle of the depths, with their span in the last two bits.
 // Reads, writes: nothing.
-// Source: not in the papers, whose cells keep depths at their centres.
+// Source: not in the papers, whose cells store depths at their centres.
 #ifndef ADS_REACHED_GLSL
 #define ADS_REACHED_GLSL
 
 #include "ads/axis_views.glsl"
 
-// Word of a triangle that may be hit at any depth of its cell, because rounding leaves the place of its plane
-// open. It is the lowest of all words, so that such triangles are first in sorted lists.
+// Word of a triangle that may be hit at any depth of its cell, because rounding leaves the position of its
+// plane open. This is the lowest of all words, so such triangles are first in sorted lists.
 #define REACHED_ANY_DEPTH 0.0
 
-// Returns the middle of the depths that a triangle has in a cell that it reaches into, and half their span in
-// `span`; of all its depths if rounding leaves those in the cell open. a, b, c are in the frame of a view,
-// which the triangle faces most. It is precise, since all builders store equal values.
+// Returns the middle of the depths that a triangle has in a cell that it reaches into; gives half their span
+// in `span`. If rounding leaves these depths open, takes all depths of the triangle instead. a, b, c are in
+// the frame of the view that the triangle faces most. The expressions are precise, since all builders must
+// store equal values.
 float reached_depth(AxisView view, vec3 a, vec3 b, vec3 c, ivec2 cell, out float span) {
     float nearest = min(a.z, min(b.z, c.z));
     float farthest = max(a.z, max(b.z, c.z));
@@ -31,8 +32,8 @@ float reached_depth(AxisView view, vec3 a, vec3 b, vec3 c, ivec2 cell, out float
     return middle;
 }
 
-// Returns the word of a triangle with these depths: half the span is an eighth of a cell, a quarter, a half
-// or all of one; REACHED_ANY_DEPTH if it is more.
+// Returns the word of a triangle with these depths. It stores half the span as an eighth, a quarter, a half
+// or all of a cell, rounded up; it is REACHED_ANY_DEPTH if half the span is more than a cell.
 float reached_word(AxisView view, float middle, float span) {
     if (span > 1.001 * view.cell) {
         return REACHED_ANY_DEPTH;
@@ -42,7 +43,7 @@ float reached_word(AxisView view, float middle, float span) {
     return uintBitsToFloat((floatBitsToUint(max(middle, 1.0e-30)) & ~3u) | size);
 }
 
-// Returns how much less than a cell the depths of a word reach from their middle, as a share of a cell.
+// Returns by how much less than a cell the depths of a word reach from their middle, as a share of a cell.
 float reached_less(float word) {
     return 1.0 - 0.125 * float(1u << (floatBitsToUint(word) & 3u));
 }

@@ -1,30 +1,34 @@
-// Place of a part whose structure was built in a space of its own, and rays in that space.
-// Reads: what follows the runs in the header of GEOMETRY_SET. Writes: nothing.
-// Source: Bürger et al. section 1.2, cubes of rigid objects. An affine map keeps t along a ray whose direction keeps its
-// length.
+// The map of a part whose structure was built in a space of its own, and rays in that space.
+// Reads: the map, which follows the runs in the buffer of the header of GEOMETRY_SET. Writes: nothing.
+// Source: Bürger et al. section 1.2, cubes of rigid objects. An affine map keeps t along a ray if the
+// direction is mapped without being normalised.
 #ifndef ADS_RIGID_GLSL
 #define ADS_RIGID_GLSL
 
 #include "ads/constants.glsl"
 #include "ads/geometry.glsl"
 
-// The map from where a part is posed to where its structure was built, both in metres. Shared, 72 bytes.
+// The affine map from the pose of a part to the space in which its structure was built. Both are in metres.
+// It takes a posed point p to x * d.x + y * d.y + z * d.z + offset, where d = p - centre. Shared, 72 bytes.
 struct GeometryRigid {
     vec3 x;               // first column of the linear map
     vec3 y;               // second column
     vec3 z;               // third column
-    vec3 centre;          // of the space it was built in, as posed
+    vec3 centre;          // posed point from which the map is taken, the middle of the part
     vec3 offset;          // where the map takes `centre`
-    float stretch;        // no length grows by more than this
-    float reach;          // a bound of how far its corners are from `centre`, where it was built
-    float error;          // how far rounding may move its corners, where it was built; infinite where there is no map
+    float stretch;        // largest factor by which a length grows
+    // bound of the distance of the part's corners from `centre`, in the space of the build, metres
+    float reach;
+    // bound of the shift of the part's corners by rounding, in the space of the build, metres; infinite if
+    // there is no map
+    float error;
 };
 
-// Largest shift of a ray by rounding, over its distance from the part: 32 units, for mapping the ray and
-// testing triangles.
+// Largest shift of a ray by rounding, relative to the distance of its origin from the part: 32 units of
+// rounding, for mapping the ray and for testing triangles.
 #define RIGID_ROUNDING 0.0000019073486
 
-// Buffer of the header, in which the map is the first element behind the runs.
+// The buffer of the header as an array of maps. The map is the first element that lies behind the runs.
 layout(set = GEOMETRY_SET, binding = 0, scalar) readonly buffer GeometryRigidBuffer {
     GeometryRigid geometry_rigids[];
 };
@@ -40,8 +44,8 @@ vec3 rigid_point(GeometryRigid map, vec3 point) {
     return (map.x * from_centre.x + map.y * from_centre.y + map.z * from_centre.z) + map.offset;
 }
 
-// Transforms a ray into the space of the build, and returns the largest error of its place until it has left
-// the part.
+// Transforms a posed ray into the space of the build. `spread` gets a bound of the error of the ray's
+// position until it has left the part.
 Ray rigid_ray(GeometryRigid map, Ray ray, out float spread) {
     vec3 away = abs(ray.origin - map.centre);
     ray.origin = rigid_point(map, ray.origin);

@@ -1,5 +1,7 @@
-// Replaces each number by the sum of those before it in its block of SCAN_BLOCK, and adds blocks up.
-// Reads: numbers. Writes: numbers, sums. One workgroup per block.
+// Replaces each number by the sum of the numbers before it in its block of SCAN_BLOCK numbers, and stores the
+// sum of each block.
+// Reads: numbers. Writes: numbers, sums.
+// One workgroup per block.
 #version 460
 #include "contract/extensions.glsl"
 #include "ads/scan.glsl"
@@ -14,7 +16,7 @@ const uint SHARE = SCAN_BLOCK / SCAN_THREADS;
 void main() {
     uint block = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
     uint count = scan_count(build.structure, build.step);
-    // Structures whose count is known only on the device dispatch for the whole capacity.
+    // If only the device knows the count, the dispatch has workgroups for the whole capacity.
     if (block * SCAN_BLOCK >= count) {
         return;
     }

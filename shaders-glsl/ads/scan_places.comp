@@ -1,5 +1,6 @@
-// Adds to each number the sum of all blocks before its own.
-// Reads: sums. Writes: numbers. One workgroup per block.
+// Adds to each number the sum of all blocks before its own block.
+// Reads: numbers, sums. Writes: numbers.
+// One workgroup per block.
 #version 460
 #include "contract/extensions.glsl"
 #include "ads/scan.glsl"

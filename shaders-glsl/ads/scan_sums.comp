@@ -1,5 +1,6 @@
-// Replaces the sum of each block by the sum of all blocks before it, and writes the total.
-// Reads: sums. Writes: sums, the structure's total. One workgroup.
+// Replaces the sum of each block by the sum of all blocks before it, and stores the total.
+// Reads: sums. Writes: sums, the structure's total.
+// One workgroup.
 #version 460
 #include "contract/extensions.glsl"
 #include "ads/scan.glsl"

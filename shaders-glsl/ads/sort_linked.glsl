@@ -1,38 +1,42 @@
-// Sorts a linked list in place by merging the ascending runs it consists of, two at a time, until one is left.
-// Reads, writes: through what the including file defines before; links are numbers of nodes, 0 ends a list:
-//   LINKED_DOUBLY                                                   whether nodes link to the one before
+// Sorts a linked list in place: merges the ascending runs of which it consists, two at a time, until one run
+// is left.
+// Reads, writes: through what the including file defines first. A link is the number of a node plus 1; 0 ends
+// a list.
+//   LINKED_DOUBLY                                                   true if nodes also link backwards
 //   uint linked_next(StructureRef s, uint link)
 //   void linked_set_next(StructureRef s, uint link, uint next)
-//   void linked_set_prev(StructureRef s, uint link, uint prev)      with LINKED_DOUBLY
+//   void linked_set_prev(StructureRef s, uint link, uint prev)      used if LINKED_DOUBLY is true
 //   bool linked_comes_first(StructureRef s, uint left, uint right)  a total order
 //   uint linked_head(StructureRef s, uint list)
 //   void linked_set_ends(StructureRef s, uint list, uint head, uint tail)
-// Source: MMRT section 3.3, reorder pass, and Hu et al. section 3.1, sort pass; Knuth 1998, section 5.2.4, natural
-// merges. The papers' private array, whose length cuts longer lists short, is not needed: only links change.
-// Everything is one loop of bounded length: drivers may end all loops of an invocation after 65,535 iterations,
-// and invocations that run in lockstep pay for the longest of each loop.
+// Source: MMRT section 3.3, reorder pass, and Hu et al. section 3.1, sort pass; Knuth 1998, section 5.2.4,
+// natural merges. The papers sort in a private array, whose length cuts longer lists short. No array is
+// needed here, since only links change.
+// There is one loop of bounded length only, because drivers may end all loops of an invocation after 65,535
+// iterations, and because invocations that run in lockstep take as many iterations of each loop as the
+// slowest of them.
 #ifndef ADS_SORT_LINKED_GLSL
 #define ADS_SORT_LINKED_GLSL
 
 #include "ads/constants.glsl"
 
-// Result of a step of the sorting of a list: the list is sorted, the pass goes on, or a pass over the list
-// has ended and another is needed.
+// Result of a step of sorting a list: the list is sorted; the step was one of a pass over the list; or the
+// step ended a pass, and another pass is needed.
 #define SORT_DONE 0u
 #define SORT_MORE 1u
 #define SORT_PASSED 2u
 
-// Pass over a list that merges neighbouring runs.
+// A pass over a list that merges every two neighbouring runs.
 struct LinkedMerge {
-    uint left;            // the rest of two runs that are being merged
-    uint right;
-    bool left_ended;
-    bool right_ended;
-    uint head;            // of what has been merged
-    uint tail;
-    uint runs;            // pairs begun
-    bool finding;         // the end of the left run is still being searched
-    uint at;              // its last node so far
+    uint left;            // first node of the left run that is not merged yet
+    uint right;           // first node of the right run that is not merged yet
+    bool left_ended;      // true if all nodes of the left run are merged
+    bool right_ended;     // true if all nodes of the right run are merged
+    uint head;            // first node of what is merged already; 0 at first
+    uint tail;            // last node of what is merged already; 0 at first
+    uint runs;            // number of pairs of runs begun in this pass
+    bool finding;         // true while the end of the left run is being searched
+    uint at;              // last node of the left run, as far as it is known
 };
 
 void linked_merge_pair(uint begin, inout LinkedMerge merge) {
@@ -51,7 +55,7 @@ void linked_merge_begin(uint head, inout LinkedMerge merge) {
     linked_merge_pair(head, merge);
 }
 
-// Moves the first node of one of the two runs behind the merged nodes.
+// Moves the first node of one of the two runs to the end of what is merged.
 void linked_merge_take(StructureRef s, inout LinkedMerge merge) {
     bool take_left = merge.right_ended || (!merge.left_ended && linked_comes_first(s, merge.left, merge.right));
     uint taken = take_left ? merge.left : merge.right;
@@ -74,7 +78,7 @@ void linked_merge_take(StructureRef s, inout LinkedMerge merge) {
     merge.tail = taken;
 }
 
-// Counts the nodes of a list; gives `limit` + 1 for a longer one.
+// Counts the nodes of a list; returns `limit` + 1 for a longer list.
 uint linked_sort_count(StructureRef s, uint list, uint limit) {
     uint count = 0u;
     uint link = linked_head(s, list);
@@ -89,13 +93,13 @@ void linked_sort_begin(StructureRef s, uint list, inout LinkedMerge merge) {
     linked_merge_begin(linked_head(s, list), merge);
 }
 
-// Returns a number of steps that is enough for a list: each pass finds the ends of runs and moves nodes, and
-// halves the runs.
+// Returns a number of steps that is enough for a list of `count` nodes: each pass finds the ends of runs,
+// moves all nodes, and halves the number of runs.
 uint linked_sort_cost(uint count) {
     return count < 2u ? 0u : (uint(findMSB(count - 1u)) + 1u) * (2u * count + 2u);
 }
 
-// Makes one step of the sorting of a list of two nodes and more. Between passes the list is whole.
+// Makes one step of sorting a list of at least two nodes. Between passes the list is whole.
 uint linked_sort_step(StructureRef s, uint list, inout LinkedMerge merge) {
     if (merge.finding) {
         uint next = linked_next(s, merge.at);
@@ -106,14 +110,15 @@ uint linked_sort_step(StructureRef s, uint list, inout LinkedMerge merge) {
         merge.finding = false;
         merge.right = next;
         merge.right_ended = next == 0u;
-        // With a single run the list is sorted, and its backward links are renewed on the way.
+        // With a single run the list is sorted. If it is doubly linked, the pass goes on, since it renews the
+        // links to nodes before.
         return merge.right_ended && merge.runs == 1u && !LINKED_DOUBLY ? SORT_DONE : SORT_MORE;
     }
     linked_merge_take(s, merge);
     if (!merge.left_ended || !merge.right_ended) {
         return SORT_MORE;
     }
-    // `right` is the begin of the next run; 0 at the end of the list.
+    // `right` is the first node of the next run, or 0 at the end of the list.
     if (merge.right != 0u) {
         linked_merge_pair(merge.right, merge);
         return SORT_MORE;
@@ -127,8 +132,8 @@ uint linked_sort_step(StructureRef s, uint list, inout LinkedMerge merge) {
     return SORT_PASSED;
 }
 
-// Sorts for at most `steps` steps, including those that count the nodes, in whole passes. Lists of more than
-// `limit` nodes stay unchanged. Returns true once the list is sorted.
+// Sorts a list for at most `steps` steps, including those that count its nodes, in whole passes. A list of
+// more than `limit` nodes stays unchanged. Returns true once the list is sorted.
 bool linked_sort(StructureRef s, uint list, uint limit, uint steps) {
     uint count = linked_sort_count(s, list, limit);
     if (count > limit || count < 2u) {
@@ -141,7 +146,8 @@ bool linked_sort(StructureRef s, uint list, uint limit, uint steps) {
         if (result == SORT_DONE) {
             return true;
         }
-        // A pass finds the end of every other run and moves every node.
+        // A pass finds the end of every other run and moves every node, and must fit into the steps that are
+        // left.
         if (result == SORT_PASSED && i + 1u + 2u * count + 2u > steps) {
             return false;
         }
@@ -149,9 +155,10 @@ bool linked_sort(StructureRef s, uint list, uint limit, uint steps) {
     return false;
 }
 
-// Sorts the lists first, first + stride, ... that come before `end`, NODE_SORT_LISTS at most. Returns bits of
-// the lists that stay unchanged: lists longer than NODE_SORT_LIMIT, and lists for which NODE_SORT_STEPS is
-// not enough in addition to the lists before. The bits follow from the numbers of nodes alone, in any order.
+// Sorts the lists first, first + stride and so on that come before `end`, at most NODE_SORT_LISTS of them.
+// Returns bits of the lists that stay unchanged: those with more than NODE_SORT_LIMIT nodes, and those for
+// which NODE_SORT_STEPS is not enough in addition to the lists before. The bits depend on the numbers of
+// nodes alone, not on their order.
 uint linked_sort_several(StructureRef s, uint first, uint stride, uint end) {
     uint waiting = 0u;
     uint left_over = 0u;
@@ -167,7 +174,7 @@ uint linked_sort_several(StructureRef s, uint first, uint stride, uint end) {
             left_over |= taken ? 0u : 1u << k;
         }
     }
-    // There is one loop for all lists, so that neighbours need not wait for each other's lists.
+    // There is one loop for all lists, so that a thread need not wait for the lists of its neighbours.
     bool sorting = false;
     uint list = 0u;
     LinkedMerge merge;

@@ -1,15 +1,18 @@
-// Sorts lists of any length, one thread each: short ones in one dispatch, which stores the others in a table;
-// LONG_LIST_ROUNDS further dispatches each sort a part of those. The passes include structure/sorted.glsl, in which a
-// structure defines its lists.
-// Reads, writes: through what that file defines, with StructureRef and `build`, before it includes this one, in addition to the functions of
-// ads/heap_sort.glsl:
+// Sorts lists of any length, one thread per list. Short lists are sorted in one dispatch, which stores the
+// others in a table; LONG_LIST_ROUNDS further dispatches each do a share of sorting these.
+// Reads, writes: through what structure/sorted.glsl defines, which the passes include, before it includes
+// this file:
+//   StructureRef, `build`, and the functions that ads/heap_sort.glsl needs
 //   SORT_HEADER(s)                             has long_demand, long_capacity and unsorted
-//   SORT_WORD(s, place)                        two words for each long list: which, and how far it is sorted
-//   SORT_LIMIT, SORT_LONG_LIMIT                longest contiguous list that one dispatch sorts, and that all of them do
-//   bool sort_is_possible(StructureRef s)      whether everything was stored
-//   uint sort_list_count(StructureRef s)
-//   uint sort_begin(StructureRef s, uint list) from now on elements are those of a list; its length
-// and, of a structure whose lists may be linked, SORT_LINKED, whether they are, with what ads/sort_linked.glsl needs.
+//   SORT_WORD(s, place)                        two words of the table per long list: the list and
+//                                              its progress
+//   SORT_LIMIT                                 longest contiguous list that is sorted in one dispatch
+//   SORT_LONG_LIMIT                            longest contiguous list that all dispatches together sort
+//   bool sort_is_possible(StructureRef s)      true if all lists are stored completely
+//   uint sort_list_count(StructureRef s)       number of lists
+//   uint sort_begin(StructureRef s, uint list) chooses the list that heap_sort.glsl sorts; returns its length
+//   SORT_LINKED                                only if lists may be linked: true if they are; then also what
+//                                              ads/sort_linked.glsl needs
 // Source: not in the papers, which cut lists that are longer than a private array.
 #ifndef ADS_SORT_LISTS_GLSL
 #define ADS_SORT_LISTS_GLSL
@@ -25,7 +28,7 @@ void sort_set_long(StructureRef s, uint place, uint list, uint progress) {
     SORT_WORD(s, 2u * place + 1u) = progress;
 }
 
-// Stores a list that is too long for one dispatch in the table of long lists.
+// Stores a list in the table of long lists.
 void sort_store_long(StructureRef s, uint list) {
     uint place = atomicAdd(SORT_HEADER(s).long_demand, 1u);
     if (place < SORT_HEADER(s).long_capacity) {
@@ -33,7 +36,7 @@ void sort_store_long(StructureRef s, uint list) {
     }
 }
 
-// Sorts a list, or stores it in the table if it is too long for one dispatch.
+// Sorts a list. If the list is too long for one dispatch, stores it in the table instead.
 void sort_list(StructureRef s, uint list) {
     uint length = sort_begin(s, list);
     uint progress = 0u;
@@ -43,8 +46,8 @@ void sort_list(StructureRef s, uint list) {
 }
 
 #ifdef SORT_LINKED
-// Sorts the linked lists of a thread, or stores them in the table. Neighbouring threads have neighbouring
-// lists.
+// Sorts the linked lists of a thread, and stores those that are too long in the table. Neighbouring threads
+// have neighbouring lists.
 void sort_linked_lists(StructureRef s, uint first, uint stride) {
     uint left_over = linked_sort_several(s, first, stride, sort_list_count(s));
     while (left_over != 0u) {
@@ -54,7 +57,7 @@ void sort_linked_lists(StructureRef s, uint first, uint stride) {
 }
 #endif
 
-// Sorts a part of the long list at a place of the table.
+// Does a share of sorting the long list at a place of the table.
 void sort_long_list(StructureRef s, uint place, uint round) {
     uint list = SORT_WORD(s, 2u * place);
     uint progress = SORT_WORD(s, 2u * place + 1u);

@@ -1,9 +1,9 @@
-// Parts that traces and surfaces read of the words that fragments store in place of their triangle: the normal of
-// the front, whether there is a back that rays may pass, and whether the fragment emits.
-// Reads: of fragments that emit the triangle's geometry and draw. Writes: nothing.
-// Source: MMRT section 3.3, normal 16:16, of which one bit is taken. A normal is octahedral: 16 bits of its first
-// coordinate, 15 of its second above the bit that is set where the surface is single-sided. scene/stored_surface.glsl says
-// what the words are.
+// Reads what traces need of the two words that a fragment stores instead of its triangle: the normal of its
+// front, whether it has a back that rays may pass through, and whether it emits.
+// Reads: for fragments that emit, geometry and draw of the triangle. Writes: nothing.
+// Source: MMRT section 3.3, normal 16:16, of which one bit is used otherwise. The word of the normal is
+// octahedral: 16 bits for the first coordinate, one bit that is set if the surface is single-sided, 15 bits
+// for the second coordinate. scene/stored_surface.glsl says what else the words hold.
 #ifndef ADS_STORED_WORDS_GLSL
 #define ADS_STORED_WORDS_GLSL
 
@@ -11,7 +11,7 @@
 
 #define STORED_SINGLE_SIDED 0x10000u
 
-// Largest whole number that 15 bits hold.
+// Largest whole number of the 15-bit signed coordinate.
 #define STORED_STEPS 16383.0
 
 uint stored_pack_normal(vec3 n, bool single_sided) {
@@ -30,18 +30,20 @@ vec3 stored_unpack_normal(uint word) {
     return normalize(n);
 }
 
-// True if a ray passes the surface whose front has this normal, because it meets its back.
+// True if a ray passes through a fragment, given the word of its normal, because it meets the fragment's
+// back.
 bool stored_normal_is_passed(Ray ray, uint word) {
     return ray_culls_back_faces(ray) && (word & STORED_SINGLE_SIDED) != 0u
         && dot(stored_unpack_normal(word), ray.direction) > 0.0;
 }
 
-// True if these words are of a fragment that emits, whose surface is that of triangle words.y.
+// True if these are the words of a fragment that emits. Its surface is that of the triangle with id words.y.
 bool stored_emits(uvec2 words) {
     return words.x >> 24 == 0u;
 }
 
-// True if a ray passes a fragment with these words of colour and normal, because it meets its back.
+// True if a ray passes through a fragment with these words of colour and normal, because it meets the
+// fragment's back.
 bool stored_is_passed(Ray ray, uvec2 words) {
     return stored_emits(words) ? back_face_is_passed_by_plane(ray, geometry_number(words.y)) : stored_normal_is_passed(ray, words.y);
 }

@@ -1,7 +1,9 @@
 // Finds the surface at each hit of a queue.
-// Reads: rays, hits, the structure, the scene. Writes: surfaces; a miss has no valid bits.
-// In parts, the surface of a stored fragment is found by the part that it is in. Both find that of any other hit, which is
-// known as well as the coarser one says.
+// Reads: rays, hits, the structure, the scene. Writes: surfaces; for a miss, `valid` is 0.
+// One invocation per slot.
+// If the geometry is in parts, this pass runs for two structures, one after the other. The surface of a
+// stored fragment is found by the structure that holds the fragment. The surface of any other hit is found by
+// both, and gets the larger of the two errors of its position.
 #version 460
 #include "contract/extensions.glsl"
 #define SURFACES_ENABLED

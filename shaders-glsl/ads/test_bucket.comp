@@ -1,5 +1,6 @@
-// Evaluates the bucket function, for tests.
-// Reads: depths with their bounds. Writes: bucket of z.
+// Computes the buckets of depths, for tests.
+// Reads: depths, each with its range. Writes: the bucket of each depth.
+// One invocation per case.
 #version 460
 #include "contract/extensions.glsl"
 #include "ads/bucket.glsl"
@@ -8,10 +9,10 @@ layout(local_size_x = 64) in;
 
 // A depth within a range of depths. Shared, 16 bytes.
 struct BucketCase {
-    float z_min;          // the least depth
-    float z_max;          // the greatest depth
-    float z;              // the depth
-    uint buckets;         // buckets of the range
+    float z_min;          // smallest depth of the range, metres
+    float z_max;          // largest depth of the range, metres
+    float z;              // the depth, metres
+    uint buckets;         // number of buckets of the range
 };
 
 layout(set = 0, binding = 0, scalar) readonly buffer CaseBuffer { BucketCase cases[]; };

@@ -1,6 +1,7 @@
-// Evaluates the coverage of cell centres, for tests.
-// Reads: triangles with a face and a cell. Writes: whether the centre is covered, at which depth, and whether the cell is
-// proposed.
+// Computes the coverage of cell centres, for tests.
+// Reads: triangles, each with a face and a cell. Writes: whether the triangle covers the centre, at which
+// depth, and whether the cell is proposed.
+// One invocation per case.
 #version 460
 #include "contract/extensions.glsl"
 #include "ads/coverage.glsl"
@@ -17,9 +18,9 @@ struct CoverageCase {
 
 // Coverage of the cell's centre. Shared, 12 bytes.
 struct CoverageResult {
-    uint covered;         // 0 or 1
-    float z;              // depth; 0 where it is not covered
-    uint proposed;        // 1: the cell is among those of coverage_cells, else 0
+    uint covered;         // 1 if the triangle covers the centre, else 0
+    float z;              // depth at the centre, metres; 0 if it is not covered
+    uint proposed;        // 1 if the cell is among those of coverage_cells, else 0
 };
 
 layout(set = 0, binding = 0, scalar) readonly buffer CaseBuffer { CoverageCase cases[]; };

@@ -1,5 +1,6 @@
-// Lists the cells that the cube march visits, for tests.
-// Reads: rays. Writes: visits (segment face, cell, t interval), counts.
+// Lists the cells that the march through a cube visits, for tests.
+// Reads: rays. Writes: visits (face, cell, interval of t), number of visits of each ray.
+// One invocation per ray.
 #version 460
 #include "contract/extensions.glsl"
 #include "contract/types.glsl"
@@ -8,24 +9,24 @@
 
 layout(local_size_x = 64) in;
 
-// A cell that a march visited, and where on the ray. Shared, 20 bytes.
+// A cell that a march visited, and where the ray was in it. Shared, 20 bytes.
 struct Visit {
     uint face;            // 0 to 5; SEGMENT_NEAR for the near region
     int x;                // column, from -1 to the resolution
     int y;                // row, from -1 to the resolution
-    float t_low;          // where the ray enters, lowered by the bound of its error
-    float t_high;         // where the ray leaves, raised by the bound of its error
+    float t_low;          // t at which the ray enters, lowered by the bound of its error
+    float t_high;         // t at which the ray leaves, raised by the bound of its error
 };
 
 layout(set = 0, binding = 0, scalar) readonly buffer RayBuffer { Ray rays[]; };
 layout(set = 0, binding = 1, scalar) buffer VisitBuffer { Visit visits[]; };
 layout(set = 0, binding = 2, scalar) buffer CountBuffer { uint counts[]; };
 
-// Rays and cells to march through. 16 bytes.
+// Number of rays, and the cells of the march. 16 bytes.
 layout(push_constant, scalar) uniform CellMarchTestConstants {
     uint ray_count;       // rays
     uint resolution;      // cells along the side of a face
-    uint limit;           // visits per ray
+    uint limit;           // visits that are stored per ray at most
     float near_size;      // half side of the near region, metres
 } pushed;
 

@@ -1,5 +1,6 @@
-// Lists the cells that the grid march visits, for tests.
-// Reads: rays in grid units. Writes: visits (cell), counts.
+// Lists the cells that the march through a grid visits, for tests.
+// Reads: rays in grid units. Writes: visits (cells), number of visits of each ray.
+// One invocation per ray.
 #version 460
 #include "contract/extensions.glsl"
 #include "contract/types.glsl"
@@ -11,11 +12,11 @@ layout(set = 0, binding = 0, scalar) readonly buffer RayBuffer { Ray rays[]; };
 layout(set = 0, binding = 1, scalar) buffer VisitBuffer { ivec3 visits[]; };
 layout(set = 0, binding = 2, scalar) buffer CountBuffer { uint counts[]; };
 
-// Rays and cells to march through. 12 bytes.
+// Number of rays, and the cells of the march. 12 bytes.
 layout(push_constant, scalar) uniform GridMarchTestConstants {
     uint ray_count;       // rays
-    uint size;            // cells along a side
-    uint limit;           // visits per ray
+    uint size;            // cells along each axis
+    uint limit;           // visits that are stored per ray at most
 } pushed;
 
 void add(uint ray, ivec3 cell) {

@@ -1,5 +1,6 @@
-// Puts many entries into few lists of pages at once, for tests.
+// Appends many entries to few lists of pages at once, for tests.
 // Reads: the list of each thread. Writes: the slot of each thread; words of lists, and pages.
+// One invocation per entry.
 #version 460
 #include "contract/extensions.glsl"
 
@@ -7,13 +8,13 @@ layout(local_size_x = 64) in;
 
 layout(set = 0, binding = 0, scalar) readonly buffer ListBuffer { uint list_of_thread[]; };
 layout(set = 0, binding = 1, scalar) buffer SlotBuffer { uint slots[]; };
-// Buffer of the number of pages taken, the words of the lists, and pages of a word and PAGE_SIZE entries:
-// thread number + 1.
+// Number of pages taken, then the words of the lists, then the pages. A page is a word and PAGE_SIZE entries;
+// an entry is the number of its thread plus 1.
 layout(set = 0, binding = 2, scalar) buffer PageBuffer { uint words[]; };
 
-// Threads and pages. 16 bytes.
+// Numbers of threads, lists and pages. 16 bytes.
 layout(push_constant, scalar) uniform PageTestConstants {
-    uint thread_count;    // threads, of an entry each
+    uint thread_count;    // threads, each of which appends one entry
     uint list_count;      // lists
     uint page_size;       // entries per page
     uint page_capacity;   // pages

@@ -1,6 +1,7 @@
-// Traces every ray through two structures in one shader and stores both answers, for tests. FIRST and SECOND are
-// their folders.
-// Reads: geometry, both structures, rays. Writes: hits (two per ray).
+// Traces every ray through two structures in one shader and stores both hits, for tests. FIRST and SECOND are
+// the folders of the structures.
+// Reads: geometry, both structures, rays. Writes: hits, two per ray.
+// One invocation per ray.
 #version 460
 #include "contract/extensions.glsl"
 
@@ -27,14 +28,16 @@ layout(local_size_x = 64) in;
 layout(set = 3, binding = 0, scalar) readonly buffer RayBuffer { Ray rays[]; };
 layout(set = 3, binding = 1, scalar) buffer HitBuffer { Hit hits[]; };
 
-// Two structures, and what is traced through both. 20 bytes.
+// The two structures, and the number of rays. 20 bytes.
 layout(push_constant, scalar) uniform ParityTestConstants {
-    uvec2 first;          // device address of a header, low word first; zero with descriptors
-    uvec2 second;         // device address of a header, low word first; zero with descriptors
+    // device address of the first structure's header, low word first; zero with descriptors
+    uvec2 first;
+    // device address of the second structure's header, low word first; zero with descriptors
+    uvec2 second;
     uint count;           // rays
 } pushed;
 
-// Number of pauses after which a ray stores no answer, many more than a ray of a test takes.
+// Number of pauses after which a ray has no answer; rays of tests take far fewer.
 const uint MOST_PAUSES = 64u;
 
 void main() {

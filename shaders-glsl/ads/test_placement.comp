@@ -1,5 +1,6 @@
-// Evaluates where views and cells are placed, for tests.
-// Reads: bounds with an eye and numbers of cells. Writes: the placements.
+// Computes placements of views and cells, for tests.
+// Reads: bounds, each with an eye and numbers of cells. Writes: the placements.
+// One invocation per case.
 #version 460
 #include "contract/extensions.glsl"
 #include "ads/placement.glsl"
@@ -9,22 +10,22 @@ layout(local_size_x = 64) in;
 // A geometry to place. Shared, 72 bytes.
 struct PlacementCase {
     vec3 bounds[2];       // lower and upper corner, metres
-    vec3 around[2];       // bounds of the whole
+    vec3 around[2];       // lower and upper corner of the whole geometry, from where rays may start, metres
     vec3 eye;             // metres
     uint cells[3];        // cells of the box along each axis
 };
 
-// Its placement. Shared, 84 bytes.
+// The placement of a case. Shared, 84 bytes.
 struct PlacementResult {
-    vec3 centre;          // `centre_within`
-    vec3 middle;          // `centre_of_bounds`
-    vec3 cube_lower;      // `cube_placement`
-    float cube_side;      // `cube_placement`
-    vec3 box_centre;      // `box_placement`
-    float box_rounding;   // `box_placement`
-    vec3 box_lower;       // `box_placement`
-    vec3 box_per_metre;   // `box_placement`
-    float box_reach;      // `box_placement`
+    vec3 centre;          // result of centre_within
+    vec3 middle;          // result of centre_of_bounds
+    vec3 cube_lower;      // xyz of cube_placement
+    float cube_side;      // w of cube_placement
+    vec3 box_centre;      // `centre` of box_placement
+    float box_rounding;   // `rounding` of box_placement
+    vec3 box_lower;       // `lower` of box_placement
+    vec3 box_per_metre;   // `per_metre` of box_placement
+    float box_reach;      // `reach` of box_placement
 };
 
 layout(set = 0, binding = 0, scalar) readonly buffer CaseBuffer { PlacementCase cases[]; };

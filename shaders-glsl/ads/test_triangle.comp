@@ -1,5 +1,7 @@
-// Tests rays against triangles one by one, for tests.
-// Reads: triangles with a ray each. Writes: whether it is hit, t and the bound of its error.
+// Tests rays against triangles, for tests.
+// Reads: triangles, each with a ray. Writes: whether the ray hits the triangle, t, and the bound of the error
+// of t.
+// One invocation per case.
 #version 460
 #include "contract/extensions.glsl"
 #include "ads/triangle.glsl"
@@ -15,8 +17,8 @@ struct TriangleCase {
 
 // Hit of the ray on the triangle. Shared, 12 bytes.
 struct TriangleResult {
-    uint hit;             // 0 or 1
-    float t;              // defined where it does
+    uint hit;             // 1 if the ray hits the triangle, else 0
+    float t;              // t of the hit; only defined if there is one
     float t_error;        // bound of the error of t
 };
 

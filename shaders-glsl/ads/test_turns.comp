@@ -1,6 +1,7 @@
-// Counts the iterations of a loop by the invocations of one workgroup, each with its own number of iterations;
-// with BARRIER a memory barrier ends each iteration. For tests.
-// Reads: iterations wanted. Writes: iterations made.
+// Counts the iterations that invocations of one workgroup make of a loop that each runs for its own number of
+// iterations, for tests. If BARRIER is defined, a memory barrier ends each iteration.
+// Reads: numbers of iterations to make. Writes: numbers of iterations made.
+// One invocation per number.
 #version 460
 #include "contract/extensions.glsl"
 

@@ -1,7 +1,8 @@
-// The nearest hit of every ray of a queue, or whether anything lies on it, as the push constants say. One kernel is
-// both: a trace is most of what a driver compiles for a first picture.
-// Reads: rays (and states of paused ones), the structure. Writes: hits; of rays that are only tested for occlusion, those
-// that are occluded have some primitive, others PRIMITIVE_NONE.
+// Finds the nearest hit of every ray of a queue, or any hit, as the push constants say. One kernel does both,
+// since traces are most of what a driver compiles before a first picture.
+// Reads: rays, states of paused rays, the structure. Writes: hits. If any hit will do, an occluded ray gets a
+// hit on some primitive, every other ray one on PRIMITIVE_NONE.
+// One invocation per slot, or per paused ray from the second round on.
 // Source: the wavefront queue of pbrt-v4, section 15.
 #version 460
 #include "contract/extensions.glsl"

@@ -1,5 +1,6 @@
-// Traces the ray of one queue slot and stores the answer, in the kernel of every structure.
-// Reads: rays, states, the list of paused rays. Writes: hits, states, list, header, work, steps.
+// Traces the ray of one slot of a queue and stores the answer; what all trace kernels share.
+// Reads: rays, states, the list of paused rays. Writes: hits, states, the list of paused rays, header, work,
+// steps.
 #ifndef ADS_TRACE_QUEUE_GLSL
 #define ADS_TRACE_QUEUE_GLSL
 
@@ -14,7 +15,7 @@
 #include "ads/nearer_part.glsl"
 #endif
 
-// True if a hit of the part that was traced before is only considered once this part has its own hit.
+// True if the part is traced as if alone, and its hit is compared with the hit of earlier parts afterwards.
 bool trace_is_apart() {
 #ifdef STRUCTURE_STORES_FRAGMENTS
     return trace.part == PART_NEXT && trace.any_hit == 0u;
@@ -23,12 +24,12 @@ bool trace_is_apart() {
 #endif
 }
 
-// Stores the work of a ray so far, if the queue has a buffer for it.
+// Stores the work that a ray has done so far, if the queue has a buffer for it.
 void queue_store_work(uint slot, TraceState state) {
     if (COUNTERS < COUNTERS_PER_RAY || slot >= uint(queue_work.length())) {
         return;
     }
-    // A ray takes part in every round until it ends.
+    // A ray takes part in every round until it ends, so the first round begins the sums.
     bool first = queue_header.round == 0u;
     RayWork work = RayWork(state.cells, state.entries, state.tests, 1u, trace_log_views, trace_log_searched);
     if (!first || trace.part == PART_NEXT) {
@@ -37,7 +38,8 @@ void queue_store_work(uint slot, TraceState state) {
         work.views += sum.views;
         work.searched += sum.searched;
         if (trace.part == PART_NEXT) {
-            // The work of this round is added to the work in other parts.
+            // Sums hold the work in other parts and that of earlier rounds in this part, which the state
+            // contains, too.
             TraceState before = queue_states[slot];
             work.cells += sum.cells - (first ? 0u : before.cells);
             work.entries += sum.entries - (first ? 0u : before.entries);
@@ -47,8 +49,8 @@ void queue_store_work(uint slot, TraceState state) {
     queue_work[slot] = work;
 }
 
-// Restores the state with which a ray paused. Words of the cursor that its structure does not use, and work
-// that nobody counts, are not kept.
+// Returns the state with which a ray paused. Only those words of the cursor that the structure uses were
+// stored, and counts only if they are enabled.
 TraceState queue_state(uint slot, Ray ray) {
     TraceState state = trace_state_begin(ray);
     state.best = queue_states[slot].best;
@@ -77,7 +79,7 @@ void queue_set_state(uint slot, TraceState state) {
     }
 }
 
-// Returns the slot of this invocation; false if there is none.
+// Finds the slot of an invocation; returns false if there is none.
 bool trace_slot(uint invocation, out uint slot) {
     work_budget = trace.work_budget;
     if (queue_header.round == 0u) {
@@ -87,7 +89,7 @@ bool trace_slot(uint invocation, out uint slot) {
     } else if (invocation < queue_header.listed) {
         slot = queue_list[queue_paused_at(queue_header.round - 1u, queue_header.capacity) + invocation];
         if (slot >= queue_header.capacity) {
-            // The structure's own count replaces `corrupted` after the trace.
+            // The count cannot go to `corrupted`, which the structure's own count replaces after the trace.
             atomicAdd(queue_header.corrupted_before, 1u);
             return false;
         }
@@ -99,8 +101,8 @@ bool trace_slot(uint invocation, out uint slot) {
     return true;
 }
 
-// Returns the state from which to trace a slot's ray; false if another part was not ready, so that there is
-// no answer.
+// Finds the state from which the ray of a slot is traced. Returns false if the ray gets no answer, because an
+// earlier part was not ready.
 bool trace_begin(uint slot, Ray ray, out TraceState state) {
     state = trace_state_begin(ray);
     if (queue_header.round > 0u) {
@@ -141,7 +143,7 @@ void trace_store(uint slot, uint result, TraceState state, Hit hit) {
     }
 #endif
     if (result == TRACE_MISS && hit.primitive != PRIMITIVE_NONE) {
-        // The hit is that of another part.
+        // No hit in this part, but one in an earlier part.
         result = TRACE_HIT;
     }
     trace_log(STEP_END, result, hit.primitive, 0u, hit.t, hit.t);

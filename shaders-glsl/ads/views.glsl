@@ -1,20 +1,21 @@
-// The six views of a cube around the eye and the exact partition of space between them.
+// The six views of a cube around the eye, called faces, and the exact partition of space between them.
 // Reads, writes: nothing.
-// Face f looks along axis f / 2, positive for even f. Turning a point into face space is a
-// permutation and a change of sign, hence exact; depth is z.
+// Face f looks along axis f / 2, in the positive direction if f is even. Transforming a point into the space
+// of a face permutes its coordinates and may change a sign, which is exact. In face space, depth is z.
 #ifndef ADS_VIEWS_GLSL
 #define ADS_VIEWS_GLSL
 
 #define VIEW_FACES 6u
 
-// Transforms a point into face space. The pyramid of a face is |x| <= z, |y| <= z.
+// Transforms a point, relative to the eye, into the space of a face. The pyramid of the face is |x| <= z, |y|
+// <= z.
 vec3 face_from_world(vec3 p, uint face) {
     vec3 q = face < 2u ? p.yzx : (face < 4u ? p.zxy : p.xyz);
     q.z = (face & 1u) != 0u ? -q.z : q.z;
     return q;
 }
 
-// Returns the face whose pyramid holds p. Ties go to x, then y, then z.
+// Returns the face whose pyramid holds p. Of equal coordinates x comes first, then y.
 uint face_of(vec3 p) {
     vec3 m = abs(p);
     if (m.x >= m.y && m.x >= m.z) {
@@ -26,11 +27,12 @@ uint face_of(vec3 p) {
     return p.z < 0.0 ? 5u : 4u;
 }
 
-// A face of `resolution` cells along a side covers x/z and y/z in [-1, 1]; one more cell on every side is
-// its border, so that a point within a cell of a seam is found in both faces. Cell (i, j) counts
-// from -1 to resolution.
+// A face with `resolution` cells along a side covers x/z and y/z in [-1, 1]. It has a border of one cell on
+// each side, so that a point within a cell of a seam is found in both faces. Columns and rows are numbered
+// from -1 to `resolution`, both of which are the border.
 
-// Returns x/z of the boundary below cell i, exact if resolution is a power of two.
+// Returns x/z of the boundary between cells i - 1 and i. The result is exact if `resolution` is a power of
+// two.
 float cell_boundary(int i, uint resolution) {
     precise float c = float(2 * i - int(resolution)) * (1.0 / float(resolution));
     return c;
@@ -47,7 +49,7 @@ uint face_cells(uint resolution) {
     return (resolution + 2u) * (resolution + 2u);
 }
 
-// Returns the running index of a cell over all faces.
+// Returns the index of a cell among the cells of all faces, borders included.
 uint cell_index(uint face, ivec2 cell, uint resolution) {
     uint side = resolution + 2u;
     return (face * side + uint(cell.y + 1)) * side + uint(cell.x + 1);

@@ -1,6 +1,7 @@
-// The pools of bricks, reached as ads/pools.glsl says.
-// Reads, writes: header, bricks, lists, entries, sums or distances, near-region list, records, triangles; lists hold where the
-// list of each cell that has one ends.
+// Access to the pools of bricks: bricks, lists, entries, records and copied triangles.
+// Reads, writes: header, bricks, lists, entries, sums or distances, near-region list, records, triangles.
+// ads/pools.glsl says how pools are reached.
+// The pool of lists has a word for each cell that has a list: the place where the list ends.
 #ifndef BRICKS_ACCESSORS_GLSL
 #define BRICKS_ACCESSORS_GLSL
 
@@ -24,47 +25,46 @@ POOL_RECORDS(bricks, corners, 7, vec3)
 #define BRICKS_VECTORS(s) POOL_VIEW_OF(bricks, vectors, BRICKS_HEADER(s).bricks_address)
 #define BRICKS_CORNERS(s) POOL_VIEW_OF(bricks, corners, BRICKS_HEADER(s).triangles_address)
 
-// Number of small triangles of a list, if cells may be divided: triangles no longer than a cell along any
-// axis.
+// Number of small triangles of a list; only if cells may be divided. A small triangle is no longer than a
+// cell along any axis.
 #define BRICKS_SMALL_COUNT(s, list) BRICKS_POOL(s, lists)[BRICKS_HEADER(s).cell_capacity + (list)]
 
-// Distances of bricks, in the pool that holds the sums of scans before.
+// Distances of bricks. They take the place of the sums of scans.
 #define BRICKS_DISTANCES(s) BRICKS_POOL(s, sums)
 
-// Number of words of a record, and the bit beside the brick's number that marks a triangle no longer than a
-// cell along any axis.
+// Number of words of a record, and the bit beside the number of the brick that marks a small triangle.
 #define BRICKS_RECORD_WORDS 4u
 #define BRICKS_RECORD_SMALL 0x80000000u
 
-// Record of the cells of a brick that a triangle reaches into, or of some of them.
+// A triangle in a brick: those cells of the brick that the triangle reaches into, or some of them.
 struct BricksRecord {
-    uint primitive;
-    uint brick;
-    bool small;
-    uvec2 cells;          // as bits of a mask
+    uint primitive;       // number of the triangle in the bound geometry
+    uint brick;           // number of the brick
+    bool small;           // true if the triangle is no longer than a cell along any axis
+    uvec2 cells;          // cells that it reaches into, as the bits of a mask
 };
 
 BricksSlices bricks_slices(BricksRef s) {
     return BricksSlices(int(BRICKS_HEADER(s).slices), BRICKS_HEADER(s).slice_first, BRICKS_HEADER(s).slice_shift);
 }
 
-// Returns the number of divisions of cells of a level along each axis.
+// Returns how often the cells of a level are divided along each axis.
 uvec3 bricks_divisions(BricksRef s, uint level) {
     return BRICKS_DEPTH == 0u ? uvec3(0u) : min(uvec3(level), BRICKS_HEADER(s).depths);
 }
 
-// Returns the cells of a level: those of the views, or cells divided that many times.
+// Returns the layout of the cells of a level: those of the view, or smaller ones.
 BoxCells bricks_axes(BricksRef s, uint level) {
     return BoxCells(BRICKS_HEADER(s).cells_lower, BRICKS_HEADER(s).cells_per_metre * vec3(uvec3(1u) << 2u * bricks_divisions(s, level)),
         BRICKS_HEADER(s).rounding);
 }
 
-// Returns the number of views: the faces of the cube, or the one view along an axis.
+// Returns the number of views: the faces of a cube, or one view along an axis.
 uint bricks_view_count() {
     return BRICKS_VIEWS == BRICKS_VIEWS_AXES ? 1u : VIEW_FACES;
 }
 
-// Returns the columns, rows and slices of a view.
+// Returns the number of columns, rows and slices of a view.
 uvec3 bricks_cells(BricksRef s) {
     return uvec3(BRICKS_HEADER(s).columns, BRICKS_HEADER(s).rows, BRICKS_HEADER(s).slices);
 }
@@ -73,7 +73,7 @@ uint bricks_total(BricksRef s) {
     return bricks_view_count() * bricks_count(bricks_cells(s));
 }
 
-// Returns the triangle of an entry of the lists; the entry must be within the pool.
+// Returns the triangle of an entry of the lists. The entry must be within the pool.
 uint bricks_entry(BricksRef s, uint entry) {
     return BRICKS_POOL(s, entries)[entry];
 }
@@ -83,7 +83,7 @@ uint bricks_near(BricksRef s, uint place) {
     return BRICKS_POOL(s, near)[place];
 }
 
-// Returns the number of cells that list something and whose list fits into the pool.
+// Returns the number of cells that have a list within the pool.
 uint bricks_listed_cells(BricksRef s) {
     return min(BRICKS_HEADER(s).cell_demand, BRICKS_HEADER(s).cell_capacity);
 }
@@ -92,7 +92,7 @@ uint bricks_stored_records(BricksRef s) {
     return min(BRICKS_HEADER(s).record_demand, BRICKS_HEADER(s).record_capacity);
 }
 
-// Returns the number of bricks that fit into the pool.
+// Returns the number of bricks that are stored.
 uint bricks_stored(BricksRef s) {
     return min(BRICKS_HEADER(s).brick_demand, BRICKS_HEADER(s).brick_capacity);
 }
@@ -101,22 +101,22 @@ uvec2 bricks_mask(BricksRef s, uint brick) {
     return uvec2(BRICKS_POOL(s, bricks)[bricks_mask_at(brick, 0u)], BRICKS_POOL(s, bricks)[bricks_mask_at(brick, 1u)]);
 }
 
-// Returns the cells of a brick that are divided, as a mask.
+// Returns the divided cells of a brick, as a mask.
 uvec2 bricks_divided(BricksRef s, uint brick) {
     return BRICKS_DEPTH == 0u ? uvec2(0u)
         : uvec2(BRICKS_POOL(s, bricks)[bricks_divided_at(brick, 0u)], BRICKS_POOL(s, bricks)[bricks_divided_at(brick, 1u)]);
 }
 
-// Words of a brick that a ray reads.
+// The words of a brick that a ray reads.
 struct BricksWords {
-    uint word;            // its own word
-    uvec2 mask;           // cells that list something
-    uvec2 divided;        // cells that are divided, as the rest only where cells may be
-    uint child;           // the first of their bricks
-    uint layer;           // of an empty brick: how far its layer of columns and slices is empty
+    uint word;            // word of the brick itself (bricks/words.glsl)
+    uvec2 mask;           // cells that have a list
+    uvec2 divided;        // cells that are divided; this and the rest only if cells may be divided
+    uint child;           // number of the first of the bricks of these cells
+    uint layer;           // for an empty brick: how far its layer of columns and slices is empty
 };
 
-// Reads all words of a brick at once, as whole vectors if cells may be divided.
+// Reads all words of a brick at once; as whole vectors if cells may be divided.
 BricksWords bricks_words(BricksRef s, uint brick) {
     if (BRICKS_DEPTH == 0u) {
         return BricksWords(BRICKS_POOL(s, bricks)[bricks_at(brick)], bricks_mask(s, brick), uvec2(0u), 0u, 0u);
@@ -126,19 +126,19 @@ BricksWords bricks_words(BricksRef s, uint brick) {
     return BricksWords(first.x, first.yz, uvec2(first.w, second.x), second.y, second.z);
 }
 
-// True if a brick of a view lists nothing.
+// True if no cell of a brick of a view has a list or is divided.
 bool bricks_has_nothing(BricksRef s, uint brick) {
     uvec2 cells = bricks_mask(s, brick) | bricks_divided(s, brick);
     return (cells.x | cells.y) == 0u;
 }
 
-// Returns the number of cells of a brick of a level along each axis: 4, or 1 along an axis that was not
-// divided.
+// Returns the number of cells of a brick of a level along each axis: 4, or 1 along an axis that is not
+// divided further at this level.
 ivec3 bricks_side(BricksRef s, uint level) {
     return BRICKS_DEPTH == 0u ? ivec3(4) : mix(ivec3(1), ivec3(4), lessThanEqual(uvec3(level), BRICKS_HEADER(s).depths));
 }
 
-// Returns the place of a brick of a level, in bricks of that level.
+// Returns the position of a brick of a level, in bricks of that level.
 uvec3 bricks_place_of(BricksRef s, uint brick, uint level) {
     if (level == 0u) {
         return bricks_place(brick, bricks_cells(s));
@@ -148,18 +148,19 @@ uvec3 bricks_place_of(BricksRef s, uint brick, uint level) {
     return uvec3(columns & 0xFFFFu, columns >> 16, BRICKS_POOL(s, bricks)[at + 1u]);
 }
 
-// Sets bits of a brick's mask.
+// Sets bits of the mask of a brick.
 void bricks_mark(BricksRef s, uint brick, uvec2 cells) {
     for (uint word = 0u; word < 2u; word++) {
         uint at = bricks_mask_at(brick, word);
-        // Most bits are set already, and reading is cheaper than an atomic.
+        // The word is read first: most bits are set already, and reading costs less than an atomic.
         if ((BRICKS_POOL(s, bricks)[at] & cells[word]) != cells[word]) {
             atomicOr(BRICKS_POOL(s, bricks)[at], cells[word]);
         }
     }
 }
 
-// Stores a record of a level and marks its cells, or counts that the capacity was too small.
+// Stores a record of a level, and marks the cells in the mask of the brick. Beyond the capacity the record is
+// only counted.
 void bricks_store_record(BricksRef s, uint level, BricksRecord record) {
     uint place = atomicAdd(BRICKS_HEADER(s).record_demand, 1u);
     if (place < BRICKS_HEADER(s).record_capacity) {

@@ -1,6 +1,9 @@
-// Columns of cells that a triangle reaches into, and their slices, for both builders.
-// Reads: header, geometry. Writes: records, bricks (masks), header.record_demand, header.demand.
-// Source: DIRT section 3.2 lists a primitive by tile and depth; here by slices that all tiles share.
+// Finds the columns of cells that a triangle reaches into and its slices in them, and stores records of them.
+// Both builders use these functions.
+// Reads: header, geometry. Writes: records, bricks (masks), header.record_demand, header.demand,
+// header.record_groups.
+// Source: DIRT section 3.2 lists a primitive by tile and bucket of depth; here all columns have the same
+// slices.
 #ifndef BRICKS_BIN_GLSL
 #define BRICKS_BIN_GLSL
 
@@ -10,33 +13,36 @@
 #include "ads/box_clip.glsl"
 #include "bricks/margin.glsl"
 
-// Positions of columns and slices.
+// Where columns and slices are.
 struct BricksSpace {
-    BricksGrid grid;     // these two of the faces of a cube
-    BricksSlices slices;
-    BoxCells axes;       // these two of views along axes
-    uvec3 cells;
+    BricksGrid grid;     // columns of the faces of a cube
+    BricksSlices slices;  // slices of the faces of a cube
+    BoxCells axes;       // layout of the cells of a view along an axis
+    uvec3 cells;         // columns, rows and slices of a view
 };
 
 BricksSpace bricks_space(BricksRef s) {
     return BricksSpace(bricks_grid(s), bricks_slices(s), bricks_axes(s, 0u), bricks_cells(s));
 }
 
-// Triangle in a view.
+// A triangle in a view.
 struct BricksBin {
-    uint primitive;
-    uint face;
-    BricksSpace space;
-    Overlap overlap;
-    float margin;         // x/z: how far columns reach beyond their sides for the nearest corner
-    BoxClip clip;       // of views along axes
-    ivec2 lower;          // first and last column and row that may hold any of it
-    ivec2 upper;
-    bool large;
-    bool small;           // no longer than a cell along any axis; of views along axes
+    uint primitive;       // number of the triangle in the bound geometry
+    uint face;            // number of the view
+    BricksSpace space;    // where columns and slices are
+    Overlap overlap;      // in faces of a cube: what the tests against all cells share
+    // in faces of a cube: how far columns reach beyond their sides at the depth of the nearest corner, in x/z
+    float margin;
+    BoxClip clip;       // in a view along an axis: the triangle in units of cells
+    ivec2 lower;          // first column and row that may hold any part of the triangle
+    ivec2 upper;          // last column and row
+    bool large;           // true if there are too many columns for one invocation
+    // in a view along an axis: true if the triangle is no longer than a cell along any axis
+    bool small;
 };
 
-// Begins a triangle relative to the centre; false if it reaches into no column of the view.
+// Begins a triangle in a view. Its corners are relative to the centre. Returns false if no part of it can be
+// in a column of the view.
 bool bricks_bin_begin(BricksSpace space, BinTriangle triangle, uint face, out BricksBin bin) {
     bin.primitive = triangle.primitive;
     bin.face = face;
@@ -67,8 +73,8 @@ bool bricks_bin_begin(BricksSpace space, BinTriangle triangle, uint face, out Br
     return true;
 }
 
-// Finds the depths of the triangle within a square of `side` columns; false if it does not reach into the
-// square.
+// Finds the depths of the triangle within a square of `side` columns from `column` on. Returns false if the
+// triangle does not reach into the square.
 bool bricks_bin_depths(BricksBin bin, ivec2 column, int side, out vec2 depths) {
     if (BRICKS_VIEWS == BRICKS_VIEWS_AXES) {
         return box_clip_depths(bin.clip, column, side, depths);
@@ -80,12 +86,13 @@ bool bricks_bin_depths(BricksBin bin, ivec2 column, int side, out vec2 depths) {
     if (!overlap_at(bin.space.grid.near_size, bin.overlap, vec3(place, 1.0), widest, depths)) {
         return false;
     }
-    // The margin is that of the depth at which the ray hits the triangle there, not of its nearest corner.
+    // The margin that is needed is that of the depth at which a ray hits the triangle in this square, which
+    // may be narrower than the margin of the nearest corner.
     precise float narrow = half_side + bricks_margin(bin.space.grid, depths.x);
     return widest - narrow < 0.125 * half_side || overlap_at(bin.space.grid.near_size, bin.overlap, vec3(place, 1.0), narrow, depths);
 }
 
-// Returns the first and last slice of the depths that a triangle has in a column.
+// Returns the first and the last slice at the depths that a triangle has in a column.
 uvec2 bricks_bin_slices(BricksBin bin, vec2 depths) {
     if (BRICKS_VIEWS == BRICKS_VIEWS_AXES) {
         return uvec2(clamp(ivec2(floor(depths)), ivec2(0), ivec2(bin.space.cells.z) - 1));
@@ -94,7 +101,8 @@ uvec2 bricks_bin_slices(BricksBin bin, vec2 depths) {
     return uvec2(bricks_slice_of(depths.x - rounding, bin.space.slices), bricks_slice_of(depths.y + rounding, bin.space.slices));
 }
 
-// Stores the triangle in a column if it reaches into it. Returns the number of entries.
+// Stores the triangle in the cells of a column that it reaches into. Returns the number of these cells, each
+// of which is an entry.
 uint bricks_bin_column(BricksRef s, BricksBin bin, ivec2 column) {
     vec2 depths;
     if (!bricks_bin_depths(bin, column, 1, depths)) {

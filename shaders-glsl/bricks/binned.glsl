@@ -1,9 +1,11 @@
-// Work of the binning pass of bricks on a triangle in a view: it stores it in the columns it reaches into.
-// Reads: geometry, header. Writes: records, bricks (masks), header.record_demand, header.demand, triangles
-// (large-triangle queue), header.large_demand, header.groups.
-// Source: DIRT section 3.2, by computing instead of drawing. The same functions decide as in the raster builder.
-// With BRICKS_SIDE_LIMIT columns along a side one workgroup suffices for a large triangle: an invocation gets 1,024 blocks of
-// 16 columns, and its loops over them have at most 17,408 iterations.
+// What the binning pass of bricks does with a triangle in a view: it stores the triangle in the columns that
+// it reaches into.
+// Reads: geometry, header. Writes: records, bricks (masks), header.record_demand, header.record_groups,
+// header.demand, triangles (which hold the large-triangle queue), header.large_demand, header.groups.
+// Source: DIRT section 3.2, in compute passes instead of draws. The functions that decide are those of the
+// raster builder.
+// One workgroup is enough for a large triangle: with BRICKS_SIDE_LIMIT columns along a side each invocation
+// gets 1,024 blocks of 16 columns, and its loops have at most 17,408 iterations.
 #ifndef BRICKS_BINNED_GLSL
 #define BRICKS_BINNED_GLSL
 
@@ -11,7 +13,7 @@
 #include "bricks/names.glsl"
 #include "ads/build_constants.glsl"
 
-// Queue of large triangles, stored in the pool that will hold the corners of triangles.
+// The large-triangle queue. It is stored in the pool that later holds the corners of triangles.
 POOL_WORDS(bricks, triangles, 7)
 #define LARGE_WORD(s, place) BRICKS_POOL(s, triangles)[place]
 #define LargeRef BricksRef
@@ -26,7 +28,7 @@ POOL_WORDS(bricks, triangles, 7)
 #define Bin BricksBin
 
 BricksSpace bricks_built_space;
-// Number of entries of the columns that this invocation has visited.
+// Number of entries in the columns that this invocation has visited.
 uint bricks_bin_entries = 0u;
 
 uint bin_view_count() {

@@ -1,5 +1,6 @@
-// Reaches of empty bricks towards lower and higher slices; one invocation per line of bricks along slices.
-// Reads: bricks (masks). Writes: bricks, of empty ones.
+// Computes how far bricks are empty towards lower slices and towards higher slices.
+// Reads: bricks (masks). Writes: bricks (words of empty ones).
+// One invocation per line of bricks along slices.
 // Source: not in the paper; bricks/distance.glsl.
 #version 460
 #include "contract/extensions.glsl"

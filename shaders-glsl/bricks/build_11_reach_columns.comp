@@ -1,6 +1,6 @@
-// Reaches of empty bricks towards lower and higher columns as well; one invocation per line of bricks
-// along columns.
+// Computes how far bricks are empty along slices and columns together, towards each of four quadrants.
 // Reads: bricks. Writes: distances.
+// One invocation per line of bricks along columns.
 // Source: not in the paper; bricks/distance.glsl.
 #version 460
 #include "contract/extensions.glsl"
@@ -20,7 +20,7 @@ void main() {
         return;
     }
     uint first = line / deep * bricks.x * deep + line % deep;
-    // The two runs lead towards lower and higher slices.
+    // The runs of reaches towards lower slices (x) and towards higher slices (y).
     uvec2 runs = uvec2(BRICKS_RUNS_BEGIN);
     for (uint x = 0u; x < bricks.x; x++) {
         uint brick = first + x * deep;

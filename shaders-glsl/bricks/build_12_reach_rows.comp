@@ -1,5 +1,6 @@
-// Reaches of empty bricks towards all octants; one invocation per line of bricks along rows.
-// Reads: distances. Writes: bricks, of empty ones.
+// Computes how far bricks are empty along all three axes together, towards each of eight octants.
+// Reads: distances. Writes: bricks (words of empty ones).
+// One invocation per line of bricks along rows.
 // Source: not in the paper; bricks/distance.glsl.
 #version 460
 #include "contract/extensions.glsl"
@@ -11,7 +12,7 @@
 
 layout(local_size_x = BUILD_GROUP_SIZE) in;
 
-// Lengthens the runs of four octants by the reaches of a brick towards them.
+// Extends the runs of four octants by the reaches that a brick has towards them.
 void lengthen(inout uint runs[4], uint reaches) {
     for (uint q = 0u; q < 4u; q++) {
         runs[q] = bricks_runs_with(runs[q], reaches >> (4u * q) & 15u);
@@ -39,7 +40,7 @@ void main() {
             if (BRICKS_DEPTH != 0u) {
                 BRICKS_POOL(build.structure, bricks)[bricks_layer_at(brick)] = reaches;
             }
-            // Until the pass in the other direction, the word holds the reaches towards lower rows.
+            // Until the loop in the other direction, the word holds the reaches towards lower rows.
             BRICKS_POOL(build.structure, bricks)[bricks_at(brick)] = BRICKS_EMPTY | reaches_of(runs);
         }
     }

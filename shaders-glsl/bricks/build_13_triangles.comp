@@ -1,5 +1,6 @@
-// Copies the corners of each triangle, so that a test reads one run of memory; one invocation per triangle.
+// Copies the corners of each triangle, so that a test reads consecutive words.
 // Reads: geometry. Writes: triangles.
+// One invocation per triangle.
 #version 460
 #include "contract/extensions.glsl"
 #include "bricks/accessors.glsl"

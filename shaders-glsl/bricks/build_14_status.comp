@@ -1,5 +1,6 @@
-// Declares the structure complete, or says what was missing.
+// Sets the status of the structure: complete if everything fitted.
 // Reads: header, geometry. Writes: header.status.
+// One invocation.
 #version 460
 #include "contract/extensions.glsl"
 #include "bricks/header.glsl"

@@ -1,6 +1,7 @@
-// Lists the triangles that intersect the near region, where the faces cannot be told apart, and counts triangles by the
-// octave of depth in which they begin. Views of a cube only.
+// Lists the triangles that intersect the near region, where rounding does not tell the faces apart. Also
+// counts triangles by the octave of depth in which they begin. Runs only for views of a cube.
 // Reads: geometry, header. Writes: near-region list, header.near_demand, header.octaves.
+// One invocation per triangle.
 // Source: none; see docs/core.md for the near region.
 #version 460
 #include "contract/extensions.glsl"

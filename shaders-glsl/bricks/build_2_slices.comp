@@ -1,5 +1,7 @@
-// Begin and thickness of slices, from the number of triangles that begin in each octave of depth.
-// Reads: header.octaves. Writes: header.slice_first, header.slice_shift.
+// Computes where slices begin and how thick they are, from the number of triangles that begin in each octave
+// of depth.
+// Reads: header.octaves, header.reach, header.slices. Writes: header.slice_first, header.slice_shift.
+// One invocation.
 // Source: not in the paper, whose buckets are those of a tile.
 #version 460
 #include "contract/extensions.glsl"
@@ -17,8 +19,8 @@ void main() {
     for (uint octave = 0u; octave < BRICKS_OCTAVES; octave++) {
         triangles += BRICKS_HEADER(build.structure).octaves[octave];
     }
-    // The slices cover as few octaves as hold all but one triangle in BRICKS_OCTAVE_SHARE; nearer depths are
-    // in the first slice.
+    // The slices cover as few octaves as possible, so that at most one triangle in BRICKS_OCTAVE_SHARE begins
+    // nearer. Nearer depths are in the first slice.
     uint octaves = BRICKS_OCTAVES;
     uint nearer = BRICKS_HEADER(build.structure).octaves[BRICKS_OCTAVES - 1u];
     while (octaves > 1u && nearer <= triangles / BRICKS_OCTAVE_SHARE) {

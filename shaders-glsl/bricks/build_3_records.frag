@@ -1,6 +1,8 @@
-// Stores each triangle in the columns of each face that it reaches into, by drawing; the rasterizer proposes.
-// Reads: geometry, header. Writes: records, bricks (masks), header.record_demand, header.demand.
-// Source: DIRT section 4.1; the same function decides as in the binning builder.
+// Stores each triangle in the columns of each view that it reaches into. The rasterizer proposes the columns.
+// Reads: geometry, header. Writes: records, bricks (masks), header.record_demand, header.record_groups,
+// header.demand.
+// One invocation per fragment that the rasterizer proposes: a triangle in a column of a view.
+// Source: DIRT section 4.1; the functions that decide are those of the binning builder.
 #version 460
 #include "contract/extensions.glsl"
 #include "bricks/bin.glsl"

@@ -1,6 +1,7 @@
-// Numbers the cells of a level that list something: each brick takes as many numbers as it has such cells. One invocation
-// also notes where bricks and records of the level end.
+// Numbers the lists of a level: each brick takes as many consecutive numbers as it has cells with a list.
+// Also stores where the bricks and the records of the level end.
 // Reads: bricks (masks), header. Writes: bricks, header.cell_demand, header.brick_first, header.record_first.
+// One invocation per brick of the level.
 // Source: not in the paper.
 #version 460
 #include "contract/extensions.glsl"

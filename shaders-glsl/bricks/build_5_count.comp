@@ -1,7 +1,7 @@
-// The lengths of the lists of a level, and where cells may be divided how many of their triangles are small. One invocation
-// per record of the level.
+// Counts the entries of the lists of a level; if cells may be divided, also those that are small triangles.
 // Reads: records, bricks, header. Writes: lists.
-// Source: not in the paper, whose lists are linked; count, scan, fill.
+// One invocation per record of the level.
+// Source: not in the paper, whose lists are linked. Here lists are counted, scanned and filled.
 #version 460
 #include "contract/extensions.glsl"
 #include "bricks/level.glsl"

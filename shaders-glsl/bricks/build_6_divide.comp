@@ -1,6 +1,7 @@
-// Divides the cells of a level that list more than BRICKS_CROWDED small triangles: each gets a brick of the next level.
-// One invocation per brick of the level.
+// Divides the crowded cells of a level: those that list more than BRICKS_CROWDED small triangles. Each gets a
+// brick of the next level.
 // Reads: lists, header. Writes: bricks, header.brick_demand, header.brick_groups, lists (zeros).
+// One invocation per brick of the level.
 // Source: not in the paper.
 #version 460
 #include "contract/extensions.glsl"
@@ -8,7 +9,7 @@
 
 layout(local_size_x = BUILD_GROUP_SIZE) in;
 
-// Returns the crowded cells of a brick as a mask.
+// Returns the crowded cells of a brick, as a mask.
 uvec2 crowded_cells(uvec2 mask, uint first) {
     uint lists = BRICKS_HEADER(build.structure).cell_capacity;
     uvec2 crowded = uvec2(0u);

@@ -1,6 +1,7 @@
-// Stores each triangle of a divided cell in the smaller cells that it reaches into. One invocation per record of the level.
-// Reads: records, bricks, geometry, header. Writes: records (less the divided cells), records and masks of the next level,
-// header.record_demand, header.demand.
+// Stores each triangle of a divided cell in those of the smaller cells that it reaches into.
+// Reads: records, bricks, geometry, header. Writes: records (without the divided cells), records and masks of
+// the next level, header.record_demand, header.record_groups, header.demand.
+// One invocation per record of the level.
 // Source: bricks/refine.glsl.
 #version 460
 #include "contract/extensions.glsl"
@@ -33,8 +34,8 @@ void main() {
         BoxClip clip = box_clip_begin(axes, all, triangle.a, triangle.b, triangle.c);
         uvec3 brick = bricks_place_of(build.structure, record.brick, build.step);
         uint child = BRICKS_POOL(build.structure, bricks)[bricks_child_at(record.brick)];
-        // There is one loop over the columns of all cells, so that invocations with few of each do not wait
-        // for those with many.
+        // There is one loop over the columns of all divided cells, so that in lockstep invocations with few
+        // cells or columns do not wait for those with many.
         Refined part;
         uint word;
         uint bit;
@@ -48,7 +49,7 @@ void main() {
             }
             begins = !refined_column(clip, part);
             if (begins) {
-                // The entry of the divided cell is subtracted.
+                // The entry of the divided cell no longer exists, so 1 is subtracted.
                 entries += uint(bitCount(part.cells.x) + bitCount(part.cells.y)) - 1u;
                 if ((part.cells.x | part.cells.y) != 0u) {
                     uint of_cell = child + bricks_rank(divided, word, bit);

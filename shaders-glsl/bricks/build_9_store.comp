@@ -1,5 +1,6 @@
-// Puts each triangle into the lists of its cells; one invocation per record.
+// Stores each triangle in the lists of its cells.
 // Reads: records, bricks. Writes: lists, entries.
+// One invocation per record.
 // Source: DIRT section 3.2, fill primitives.
 #version 460
 #include "contract/extensions.glsl"

@@ -1,30 +1,33 @@
-// The contents of a cell of the bricks for a ray: the empty cells around it, or the list to test.
+// Finds what a ray meets in a cell of the bricks: a box of empty cells to cross in one step, or a list to
+// test.
 // Reads: bricks, lists, triangles, geometry. Writes: nothing.
-// Source: DIRT section 3.3, by cells of (column, row, slice) in bricks.
+// Source: DIRT section 3.3; here cells have a column, a row and a slice, and are grouped in bricks.
 #ifndef BRICKS_CELL_GLSL
 #define BRICKS_CELL_GLSL
 
 #include "bricks/accessors.glsl"
 #include "ads/evaluate.glsl"
 
-// Values that are constant along a ray.
+// Values that do not change along a ray. The smallest cells are those of the most divided level.
 struct BricksTraversal {
-    ivec3 cells;          // columns, rows and slices, of the smallest cells
-    ivec3 shift;          // log2 of the smallest cells along each side of a cell of a view
-    float steepness;      // rows that the ray crosses for each column or slice, whichever are more
+    ivec3 cells;          // columns, rows and slices of a view, counted in smallest cells
+    ivec3 shift;          // log2 of the number of smallest cells in a cell of a view, along each axis
+    // rows that the ray crosses per column or per slice, whichever of these it crosses more of
+    float steepness;
     // The following members are for the faces of a cube only.
-    BricksSlices slices;
-    float half_side;      // half the columns of a face
-    float column;         // width of one in x/z
-    float rounding;       // metres: bound of how far rounding moves the ray
-    // Sizes of the pools.
-    uint stored;          // entries
-    uint listed;          // cells with a list
-    uint bricks;
+    BricksSlices slices;  // slices of a face
+    float half_side;      // half the number of columns of a face
+    float column;         // width of a column in x/z
+    float rounding;       // bound of the shift of the ray by rounding, metres
+    // These members are sizes of what the pools hold.
+    uint stored;          // number of entries
+    uint listed;          // number of cells with a list
+    uint bricks;          // number of bricks
 };
 
-// Returns the number of empty bricks beyond an empty one: along all axes towards an octant, or farther along
-// columns and slices alone if a ray crosses these in one step.
+// Returns the number of empty bricks that a ray crosses beyond an empty one along each axis: equally many
+// along all axes, or more along columns and slices and none along rows, if a ray with this steepness gets
+// farther in that way.
 ivec3 bricks_empty_bricks(BricksWords words, uint octant, float steepness) {
     int cube = bricks_distance(words.word, octant);
     if (BRICKS_DEPTH != 0u) {
@@ -36,16 +39,17 @@ ivec3 bricks_empty_bricks(BricksWords words, uint octant, float steepness) {
     return ivec3(cube);
 }
 
-// Box of the smallest cells that a ray may cross in one step: all between first and last along each axis.
+// A box of smallest cells that a ray may cross in one step.
 struct BricksBox {
-    ivec3 first;
-    ivec3 last;
-    bool listed;          // one cell, which lists something
-    uint list;
+    ivec3 first;          // first cell along each axis
+    ivec3 last;           // last cell along each axis
+    bool listed;          // true if the box is one cell that has a list
+    uint list;            // number of the list
 };
 
-// Finds the box in a brick whose cells are 2^shift of the smallest along a side; it has one cell along an
-// axis along which it would have less than 1. False if the cell is divided; `brick` is then the cell's brick.
+// Finds the box of cells around a cell within one brick. A cell of the brick has 2^shift smallest cells along
+// each axis; a negative shift means that the brick was not divided along that axis, and has one cell. Returns
+// false if the cell is divided; `brick` is then the number of the cell's own brick.
 bool bricks_box_in(BricksWords words, ivec3 shift, ivec3 cell, bvec3 up, inout uint brick, inout BricksBox box) {
     ivec3 size = max(shift, 0);
     ivec3 within = mix(ivec3(3), ivec3(0), lessThan(shift, ivec3(0)));
@@ -73,8 +77,8 @@ bool bricks_box_in(BricksWords words, ivec3 shift, ivec3 cell, bvec3 up, inout u
     return true;
 }
 
-// Finds the box crossed from a cell in one step. Bricks, lists and triangles with an invalid index are
-// counted, here and below.
+// Finds the box that a ray crosses from a cell in one step. Here and in the functions below, `corrupted`
+// counts invalid indices of bricks, lists and triangles.
 BricksBox bricks_box(BricksRef s, BricksTraversal traversal, uint face, ivec3 cell, bvec3 up, inout uint corrupted) {
     uvec3 of_view = uvec3(traversal.cells >> traversal.shift);
     uint brick = bricks_index(face, cell >> traversal.shift, of_view);
@@ -102,7 +106,7 @@ BricksBox bricks_box(BricksRef s, BricksTraversal traversal, uint face, ivec3 ce
     return box;
 }
 
-// Returns begin and end of the list of a cell. A list that leaves the pool is empty.
+// Returns begin and end of the list of a cell. A list that leaves the pool is counted, and read as empty.
 uvec2 bricks_entries(BricksRef s, BricksTraversal traversal, uint list, inout uint corrupted) {
     if (list < traversal.listed) {
         uvec2 entries = uvec2(list == 0u ? 0u : BRICKS_POOL(s, lists)[list - 1u], BRICKS_POOL(s, lists)[list]);
@@ -114,7 +118,7 @@ uvec2 bricks_entries(BricksRef s, BricksTraversal traversal, uint list, inout ui
     return uvec2(0u);
 }
 
-// Tests a candidate with its copied corners, or with those of the geometry.
+// Tests a triangle, with its copied corners or with those of the geometry.
 void bricks_test(BricksRef s, uint primitive, Ray ray, inout TraceState state, inout uint corrupted) {
     bool kept = BRICKS_CORNERS_KEPT != 0u;
     if (primitive >= (kept ? BRICKS_HEADER(s).triangle_capacity : geometry_triangle_count())) {

@@ -1,8 +1,10 @@
-// The planes between cells of a cube's face, as bricks are marched: columns and rows are pyramids that
-// touch at the centre, slices are parallel. ads/box_cells.glsl has those of a view along an axis.
+// The planes between the cells of a face of a cube, and where a ray intersects them. Columns and rows are
+// pyramids with their apex at the centre; slices are parallel. For a view along an axis see
+// ads/box_cells.glsl.
 // Reads, writes: nothing.
 // Nothing here is exact. With R the largest distance of the geometry and u = 2^-24, every position below is
-// within 96 u R metres and 32 u in x/z of its exact value; cells list triangles within that distance.
+// within 96 u R metres, and 32 u in x/z, of its exact value. Cells therefore list triangles within that
+// distance.
 #ifndef BRICKS_CUBE_GLSL
 #define BRICKS_CUBE_GLSL
 
@@ -11,21 +13,25 @@
 
 #define BRICKS_INFINITY uintBitsToFloat(0x7F800000u)
 
-// Ray in one face.
+// A ray in the space of one face.
 struct BricksRay {
-    vec3 origin;          // face space, metres from the centre
-    vec3 direction;
-    vec3 heading;         // in which order cells are visited along each axis: 1, -1, or 0 where x/z never changes
-    vec2 still;           // x/z and y/z, used where the heading is 0
-    float z_inverse;      // of the direction's z
+    vec3 origin;          // metres from the centre
+    vec3 direction;       // metres per unit of t
+    // order in which cells are visited along each axis: 1 upwards, -1 downwards, 0 if x/z or y/z never
+    // changes
+    vec3 heading;
+    vec2 still;           // x/z and y/z of the ray, used where the heading is 0
+    float z_inverse;      // reciprocal of the direction's z; 0 if it is 0 or subnormal
 };
 
-// Transforms a ray into a face; origin is relative to the centre, in world axes.
+// Transforms a ray into the space of a face. The given origin is relative to the centre, in the axes of the
+// world.
 BricksRay bricks_ray(vec3 origin, vec3 direction, uint face) {
     BricksRay ray;
     ray.origin = face_from_world(origin, face);
     ray.direction = face_from_world(direction, face);
-    // Products are compared, so two faces agree on the direction in which their seam is crossed.
+    // Products are compared, so that two faces agree on the direction in which a ray crosses the seam between
+    // them.
     precise vec2 ahead = ray.direction.xy * ray.origin.z;
     precise vec2 behind = ray.origin.xy * ray.direction.z;
     ray.heading = vec3(ahead.x > behind.x ? 1.0 : (ahead.x < behind.x ? -1.0 : 0.0),
@@ -36,14 +42,15 @@ BricksRay bricks_ray(vec3 origin, vec3 direction, uint face) {
     return ray;
 }
 
-// Returns the t at which the boundary x/z = c is crossed in the direction of the heading, or infinity.
+// Returns the t at which the ray crosses the boundary x/z = c in the direction of the heading; infinity if it
+// does not.
 float bricks_crossing(float c, float o, float d, float oz, float dz, float heading) {
     float denominator = d - c * dz;
     return denominator * heading > 0.0 ? (c * oz - o) / denominator : BRICKS_INFINITY;
 }
 
-// Returns the t at which the ray intersects each of three planes: below column planes.x, row planes.y, slice
-// planes.z.
+// Returns the t at which the ray intersects each of three planes: those below column planes.x, row planes.y
+// and slice planes.z.
 vec3 bricks_exits(BricksRay ray, ivec3 planes, float column, BricksSlices slices) {
     vec2 c = vec2(planes.xy) * column - 1.0;
     float tz = planes.z > 0 && planes.z < slices.count && ray.z_inverse != 0.0
@@ -52,20 +59,21 @@ vec3 bricks_exits(BricksRay ray, ivec3 planes, float column, BricksSlices slices
         bricks_crossing(c.y, ray.origin.y, ray.direction.y, ray.origin.z, ray.direction.z, ray.heading.y), tz);
 }
 
-// Returns the cell that the ray is in at t. If rounding does not decide, these are the column and row that
-// are visited first: a boundary behind the ray is crossed at once, but a boundary that is never crossed could
-// not be stepped back over.
+// Returns the cell that the ray is in at t. If rounding leaves the column or the row open, returns the one
+// that the ray visits first: the ray crosses a boundary behind it at once, whereas it could not step back
+// over a boundary that it never crosses.
 ivec3 bricks_cell_at(BricksRay ray, float t, float half_side, float rounding, BricksSlices slices) {
     vec3 p = ray.origin + t * ray.direction;
     float inverse = 1.0 / max(p.z, 1.0e-37);
     vec2 place = p.xy * inverse - ray.heading.xy * (rounding * inverse + 1.0e-6);
     place = vec2(ray.heading.x == 0.0 ? ray.still.x : place.x, ray.heading.y == 0.0 ? ray.still.y : place.y);
-    // The place is clamped before it becomes an integer, which must be less than 2^31.
+    // The place is clamped before the conversion, since integers must be less than 2^31.
     vec2 cell = clamp(place * half_side + half_side, vec2(-1.0), vec2(2.0 * half_side));
     return ivec3(ivec2(floor(cell)), bricks_slice_of(p.z, slices));
 }
 
-// Returns the face beyond a side of a face: a side of columns or of rows, lower or upper.
+// Returns the face beyond one side of a face: the side at the first or last column (`columns`) or row, lower
+// or upper.
 uint bricks_face_beyond(uint face, bool columns, bool lower) {
     uint axis = ((face >> 1) + (columns ? 1u : 2u)) % 3u;
     return 2u * axis + (lower ? 1u : 0u);

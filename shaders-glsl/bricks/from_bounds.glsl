@@ -1,5 +1,5 @@
-// Places the cells of bricks for the bounds of the geometry and the eye.
-// Reads: header of the geometry. Reads, writes: header.
+// Places the cells of bricks, given the bounds of the geometry and the eye.
+// Reads: header of the geometry, header. Writes: header.
 // Source: none; docs/systems/bricks.md.
 #ifndef BRICKS_FROM_BOUNDS_GLSL
 #define BRICKS_FROM_BOUNDS_GLSL
@@ -8,8 +8,8 @@
 #include "ads/placement.glsl"
 #include "bricks/header.glsl"
 
-// Returns the largest number of divisions of cells along each axis: smaller cells would be hardly wider than
-// their margins, as cells of flat bounds already are.
+// Returns how often cells may be divided along each axis. Smaller cells would be hardly wider than their
+// margins, as the cells of flat bounds are from the start.
 uvec3 bricks_depths_for(BoxPlacement at) {
     vec3 margins = BRICKS_DIVIDED_MARGINS * at.rounding * at.per_metre;
     uvec3 depths = uvec3(0u);
@@ -30,7 +30,7 @@ void bricks_from_bounds(BricksRef s, vec3 lower, vec3 upper) {
         at.centre = centre_within(BRICKS_HEADER(s).eye, lower, upper);
         at.reach = box_reach(lower - at.centre, upper - at.centre);
         // A difference of two coordinates is rounded relative to itself, so the distance of the centre from
-        // the frame origin does not matter.
+        // the frame origin does not matter here.
         at.rounding = CELL_ROUNDING * at.reach;
         at.lower = vec3(0.0);
         at.per_metre = vec3(0.0);
@@ -42,8 +42,9 @@ void bricks_from_bounds(BricksRef s, vec3 lower, vec3 upper) {
     BRICKS_HEADER(s).cells_per_metre = at.per_metre;
     BRICKS_HEADER(s).lower = lower - at.centre - at.rounding;
     BRICKS_HEADER(s).upper = upper - at.centre + at.rounding;
-    // Hits of a ray outside the near region are not behind the centre, even if there are few columns. Depths
-    // are positive, even if all geometry is at the centre.
+    // The near region is at least as large as twice the rounding, so that hits outside of it are not behind
+    // the centre, even if there are few columns. It has at least the smallest size, so that depths are
+    // positive even if all geometry is at the centre.
     float near = max(NEAR_REGION * float(cells.x) * at.reach, 2.0 * at.rounding);
     BRICKS_HEADER(s).near_size = max(near, PLACEMENT_SMALLEST);
 }

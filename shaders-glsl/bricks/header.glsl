@@ -1,5 +1,5 @@
 // The header of bricks.
-// Reads, writes: header; stages with STRUCTURE_READ_ONLY only read it.
+// Reads, writes: header; shaders that define STRUCTURE_READ_ONLY only read it.
 #ifndef BRICKS_HEADER_GLSL
 #define BRICKS_HEADER_GLSL
 

@@ -1,23 +1,24 @@
-// The cells of a brick of the next level that a triangle reaches into, column by column.
+// Finds the cells of the brick of a divided cell that a triangle reaches into, one column at a time.
 // Reads, writes: nothing.
-// Source: not in the paper; the same function decides as for the cells of a view.
+// Source: not in the paper. The functions that decide are those for the cells of a view.
 #ifndef BRICKS_REFINE_GLSL
 #define BRICKS_REFINE_GLSL
 
 #include "ads/box_clip.glsl"
 #include "bricks/words.glsl"
 
-// Part of a triangle in the brick of a divided cell, one column after another.
+// A triangle in the brick of a divided cell.
 struct Refined {
-    ivec3 corner;         // first cell of the brick
-    ivec2 lower;          // first and last column that the triangle may reach into, within the brick
-    ivec2 upper;
-    int slices;           // of a column of the brick
-    ivec2 column;         // the next
-    uvec2 cells;          // reached so far
+    ivec3 corner;         // first cell of the brick, among the cells of the level
+    ivec2 lower;          // first column of the brick that the triangle may reach into
+    ivec2 upper;          // last column of the brick that it may reach into
+    int slices;           // number of slices of the brick
+    ivec2 column;         // column that is next
+    uvec2 cells;          // cells that it reaches into in the columns so far
 };
 
-// Begins a part. `brick` is its place among those of the level, `side` its number of cells along each axis.
+// Begins a triangle in a brick. `brick` is the position of the brick in bricks of its level, `side` the
+// number of its cells along each axis.
 Refined refined_begin(BoxClip clip, uvec3 brick, ivec3 side) {
     Refined part;
     part.corner = side * ivec3(brick);
@@ -29,7 +30,7 @@ Refined refined_begin(BoxClip clip, uvec3 brick, ivec3 side) {
     return part;
 }
 
-// Adds the cells of the next column; false after the last.
+// Adds the cells of the next column; returns false if there is none left.
 bool refined_column(BoxClip clip, inout Refined part) {
     if (any(greaterThan(part.column, part.upper))) {
         return false;

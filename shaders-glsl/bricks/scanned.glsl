@@ -1,5 +1,6 @@
-// The numbers that the scan runs over: lengths of lists become places. Entries are counted with their records, so that
-// the demand for both is known at once.
+// The numbers that the shared scan passes run over (ads/scan.glsl): the lengths of lists, which become the
+// places where lists begin. Their sum is not stored: entries were counted with the records, so that the
+// demand for both is known at once.
 // Reads, writes: lists, sums.
 #ifndef BRICKS_SCANNED_GLSL
 #define BRICKS_SCANNED_GLSL

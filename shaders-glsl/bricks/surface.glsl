@@ -1,4 +1,4 @@
-// The surface at a hit of bricks: a triangle with barycentrics.
+// Finds the surface at a hit. Hits are on triangles, with barycentrics.
 // Reads: the scene. Writes: nothing.
 #ifndef BRICKS_SURFACE_GLSL
 #define BRICKS_SURFACE_GLSL

@@ -1,6 +1,6 @@
-// Follows a ray through bricks of cells and tests the triangles that each cell lists.
+// Marches a ray through the cells of bricks, and tests the triangles that each cell lists.
 // Reads: all pools, geometry. Writes: header.corrupted.
-// Source: DIRT section 3.3; bricks/walk.glsl.
+// Source: DIRT section 3.3; bricks/walk.glsl says how the march differs.
 #ifndef BRICKS_TRACE_GLSL
 #define BRICKS_TRACE_GLSL
 
@@ -11,35 +11,37 @@
 #include "ads/constants.glsl"
 #include "ads/march_cube.glsl"
 
-// Returns the number of triangles that are tested one by one.
+// Returns the number of triangles that are tested one by one, without cells: BRICKS_ALONE_NEAR or
+// BRICKS_ALONE_ALL.
 uint bricks_alone(BricksRef s, uint alone) {
     return alone == BRICKS_ALONE_ALL ? geometry_triangle_count()
         : min(BRICKS_HEADER(s).near_demand, BRICKS_HEADER(s).near_capacity);
 }
 
-// Tests the triangles that are tested one by one, then follows the ray, across the near region if it crosses
-// that; a ray that tests all triangles is not followed. Both parts read their candidates by the same code,
-// which is most of the kernel. `resumed` if the cursor holds the place. Returns true if the budget ended
-// first.
+// Tests the triangles that are tested one by one (`alone`), and then marches the ray through the cells, past
+// the near region if it crosses that. A ray that tests all triangles is not marched. One loop does both, so
+// that the code which tests a triangle, most of the kernel, is there once. If `resumed` is true, the cursor
+// says where to go on. Returns true if the work budget was spent before the end.
 bool bricks_trace_cells(BricksRef s, Ray ray, BricksSpan span, uint alone, bool any_hit, bool resumed, inout TraceState state) {
     uint work = 0u;
-    // Faults are added up here, because an atomic in a loop costs time.
+    // Invalid indices are counted in a variable, because an atomic in a loop costs time.
     uint corrupted = 0u;
     const bool axes = BRICKS_VIEWS == BRICKS_VIEWS_AXES;
     BricksTraversal traversal = bricks_traversal(s);
-    // This makes the end finite, even if the end of the geometry overflows.
+    // The end must be finite, even if the end of the geometry overflows.
     span.t_last = min(span.t_last, 3.0e38);
     bool crosses_near = span.near.x <= span.near.y && span.near.y < span.t_last;
     if (span.near.x <= span.near.y && !crosses_near) {
-        // A ray that ends in the near region needs no cell beyond it.
+        // If the ray ends within the near region, it needs no cell beyond the region.
         span.t_last = min(span.t_last, span.near.x);
     }
     BricksWalk walk = bricks_walk_begin(span, ray.direction, alone, resumed, state);
     BricksLine line;
-    // The two triangles tested last are remembered, because large ones are in many consecutive cells.
+    // The two triangles tested last are remembered, because large triangles are listed by many consecutive
+    // cells.
     uvec2 tested = uvec2(PRIMITIVE_NONE);
-    // Each iteration crosses a cell or the empty cells around it, and stays below the budget; the first
-    // iterations may test triangles one by one.
+    // Each iteration crosses a cell, or the empty cells around it. The first one may instead test triangles
+    // one by one. There are no more iterations than units of the budget.
     while (alone != BRICKS_ALONE_NONE || (walk.t <= span.t_last && !(walk.t > state.best.t + span.slack))) {
         if (walk.turns && alone == BRICKS_ALONE_NONE) {
             line = bricks_line(s, span.origin, ray.direction, walk.face);
@@ -53,7 +55,7 @@ bool bricks_trace_cells(BricksRef s, Ray ray, BricksSpan span, uint alone, bool 
             walk.turns = false;
             walk.begins = false;
         }
-        // A list that was being read when the ray paused goes on without a unit for its cell.
+        // If the ray paused within a list, the rest of the list takes no unit for its cell.
         bool enters = walk.entry == BRICKS_LIST_BEGIN;
         BricksBox box = BricksBox(walk.cell, walk.cell, true, 0u);
         vec3 exits = vec3(0.0);
@@ -119,8 +121,8 @@ bool bricks_trace_cells(BricksRef s, Ray ray, BricksSpan span, uint alone, bool 
             tested = uvec2(PRIMITIVE_NONE);
             continue;
         }
-        // A ray that enters the near region continues on the other side; triangles in the region are tested
-        // one by one.
+        // If the ray enters the near region, it goes on at the other side: the triangles in the region have
+        // been tested one by one.
         if (crosses_near && walk.t < span.near.x && t_out >= span.near.x) {
             walk.t = span.near.y;
             walk.face = face_of(span.origin + walk.t * ray.direction);
@@ -151,12 +153,12 @@ bool bricks_trace_cells(BricksRef s, Ray ray, BricksSpan span, uint alone, bool 
     return walk.paused;
 }
 
-// Traces the whole ray.
+// Traces a ray.
 uint bricks_trace(BricksRef s, Ray ray, inout TraceState state, bool any_hit) {
     vec3 origin = ray.origin - BRICKS_HEADER(s).centre;
     float reach = BRICKS_HEADER(s).reach;
     float slack = hit_slack(origin, ray.direction, reach);
-    // Views along axes do not touch, so there is no near region between them.
+    // A view along an axis has no near region, since there is no second view that it touches.
     vec2 near = BRICKS_VIEWS == BRICKS_VIEWS_AXES ? vec2(1.0, 0.0)
         : near_region_interval(origin, ray.direction, BRICKS_HEADER(s).near_size);
     vec2 clip = bounds_interval(BRICKS_HEADER(s).lower, BRICKS_HEADER(s).upper, origin, ray.direction, ray.t_min - slack,

@@ -1,4 +1,4 @@
-// The surface at a hit of the brute-force structure: a primitive with barycentrics.
+// Finds the surface at a hit. Hits are on triangles, with barycentrics.
 // Reads: the scene. Writes: nothing.
 #ifndef BRUTE_SURFACE_GLSL
 #define BRUTE_SURFACE_GLSL

@@ -1,6 +1,6 @@
-// Tests every triangle: what all other structures are compared with.
+// Tests every triangle. All other structures are compared with this one.
 // Reads: geometry. Writes: nothing.
-// cursor[0] is the next triangle.
+// Word of the cursor: 0 the next triangle.
 #ifndef BRUTE_TRACE_GLSL
 #define BRUTE_TRACE_GLSL
 
@@ -29,8 +29,8 @@ uint brute_trace(BruteRef s, Ray ray, inout TraceState state, bool any_hit) {
     return state.best.primitive == PRIMITIVE_NONE ? TRACE_MISS : TRACE_HIT;
 }
 
-// Returns the status: there is nothing to build, but indices may have to be gathered and triangles to be
-// counted.
+// Returns the status. There is nothing to build, but the triangles can only be read once they are counted and
+// their indices are gathered.
 uint brute_status(BruteRef s) {
     bool is_readable = geometry_header.stamp != 0u && (geometry_header.stamp & GEOMETRY_NOT_GATHERED) == 0u;
     return is_readable ? geometry_header.stamp | STATUS_COMPLETE : 0u;

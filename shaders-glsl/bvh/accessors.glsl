@@ -1,5 +1,7 @@
-// The tree's pools, reached as ads/pools.glsl says.
-// Reads, writes: header, nodes, records, scratch. Every access checks the capacity.
+// Access to the tree's pools: header, nodes, records and scratch, each read and written by functions of its
+// own.
+// Reads, writes: header, nodes, records, scratch. Every access compares the index with the capacity of the
+// pool. ads/pools.glsl says how pools are reached.
 #ifndef BVH_ACCESSORS_GLSL
 #define BVH_ACCESSORS_GLSL
 
@@ -23,28 +25,30 @@ POOL_WORDS(bvh, scratch, 3)
 #define BVH_RECORD_VECTORS(s) POOL_VIEW_OF(bvh, record_vectors, BVH_HEADER(s).records_address)
 #define BVH_POOL(s, pool) POOL_WORDS_OF(bvh, pool, BVH_HEADER(s))
 
-// Adds to the count of references with an invalid index. Readers count faults for themselves, because an
-// atomic in a loop costs time.
+// Adds to the count of invalid indices. Readers count in a variable and call this once, because an atomic in
+// a loop costs time.
 void bvh_count_corrupted(BvhRef s, uint corrupted) {
     if (corrupted != 0u) {
         atomicAdd(BVH_HEADER(s).corrupted, corrupted);
     }
 }
 
-// Children of a node in the order in which a ray along these axes reaches their sides: sides, then
-// references.
+// The children of one node as a ray sees them: component i of each vector belongs to child i. Along each axis
+// a box has a side that the ray reaches first and one that it reaches last; which is which follows from the
+// signs of the ray's direction.
 struct BvhChildren {
-    vec4 first_x;           // sides that it reaches first
-    vec4 last_x;            // sides that it reaches last
-    vec4 first_y;
-    vec4 last_y;
-    vec4 first_z;
-    vec4 last_z;
-    uvec4 references;       // BVH_NONE where there is no child
+    vec4 first_x;           // x of the sides that the ray reaches first
+    vec4 last_x;            // x of the sides that the ray reaches last
+    vec4 first_y;           // y of the sides that the ray reaches first
+    vec4 last_y;            // y of the sides that the ray reaches last
+    vec4 first_z;           // z of the sides that the ray reaches first
+    vec4 last_z;            // z of the sides that the ray reaches last
+    uvec4 references;       // child references; BVH_NONE where there is no child
 };
 
-// Reads the children of a node as whole vectors. A node of two children has none in the last two places. An
-// index past the end is counted and gives boxes that are far away.
+// Reads the children of a node as whole vectors. `descends` says along which axes the ray's direction is
+// negative. A node of two has no third and fourth child. An index past the end is counted, and gives boxes
+// that are far away.
 BvhChildren bvh_children(BvhRef s, uint node, uint node_capacity, bvec3 descends, inout uint corrupted) {
     if (node >= node_capacity) {
         corrupted += 1u;
@@ -112,7 +116,7 @@ uint bvh_leaf_count(uint reference) {
     return ((reference & ~BVH_LEAF) >> BVH_LEAF_SHIFT) + 1u;
 }
 
-// Reads a triangle as whole vectors. An index past the end is counted and gives a triangle without area.
+// Reads a record as whole vectors. An index past the end is counted, and gives a triangle without area.
 BvhRecord bvh_record(BvhRef s, uint record, uint record_capacity, inout uint corrupted) {
     if (record >= record_capacity) {
         corrupted += 1u;
@@ -132,14 +136,14 @@ void bvh_set_record(BvhRef s, uint record, BvhRecord value) {
     }
 }
 
-// Returns the place in the pool of a node of two children, counted in such nodes: behind the nodes of four
-// that are made of them, if there are any.
+// Returns the place of a node of two in the pool of nodes, counted in nodes. If the tree has nodes of four,
+// which are made from nodes of two, the nodes of two lie behind them.
 uint bvh_pair_place(BvhRef s, uint node) {
     return BVH_CHILDREN == BVH_FOUR ? BVH_HEADER(s).node_capacity + node : node;
 }
 
-// Reads a node of two children member by member, as an invocation reads its own writes. An index past the end
-// gives a node over the first record.
+// Reads a node of two. Its members are read one by one and not as vectors, so that an invocation sees what it
+// wrote itself. An index past the end gives a node whose children are leaves with the first record.
 BvhNode bvh_node(BvhRef s, uint node) {
     if (node >= BVH_HEADER(s).pair_capacity) {
         return BvhNode(vec3(0.0), BVH_LEAF, vec3(0.0), BVH_LEAF, vec3(0.0), BVH_NONE, vec3(0.0), 0u);
@@ -154,7 +158,7 @@ void bvh_set_node(BvhRef s, uint node, BvhNode value) {
     }
 }
 
-// Sets both children of a node of two. Boxes stay unchanged.
+// Sets the references of both children of a node of two. The boxes stay unchanged.
 void bvh_set_children(BvhRef s, uint node, uint child_0, uint child_1) {
     if (node < BVH_HEADER(s).pair_capacity) {
         uint place = bvh_pair_place(s, node);
@@ -177,7 +181,7 @@ void bvh_set_parent(BvhRef s, uint node, uint link) {
     }
 }
 
-// Sets the box of the child of a node of two that a link refers to.
+// Sets the box of one child of a node of two, given the link to that child.
 void bvh_set_box(BvhRef s, uint link, vec3 lower, vec3 upper) {
     uint node = link >> 1u;
     if (node >= BVH_HEADER(s).pair_capacity) {
@@ -193,8 +197,8 @@ void bvh_set_box(BvhRef s, uint link, vec3 lower, vec3 upper) {
     }
 }
 
-// Sets the children of a node of four and their boxes, side by side. The link by which the node is reached
-// stays unchanged.
+// Sets the children of a node of four and their boxes: `lower[axis][i]` and `upper[axis][i]` are sides of
+// child i. The link by which the node is reached stays unchanged.
 void bvh_set_children_of_four(BvhRef s, uint node, uvec4 children, mat3x4 lower, mat3x4 upper) {
     if (node >= BVH_HEADER(s).node_capacity) {
         return;
@@ -240,13 +244,13 @@ void bvh_set_scratch(BvhRef s, uint word, uint value) {
     }
 }
 
-// True if three consecutive words from this one on are within the pool.
+// True if this word and the two after it are within the pool.
 bool bvh_scratch_has_point(BvhRef s, uint word) {
     uint capacity = BVH_HEADER(s).scratch_capacity;
     return capacity >= 3u && word <= capacity - 3u;
 }
 
-// Reads three consecutive words as a point.
+// Reads three consecutive words as a point; returns the origin if they are not within the pool.
 vec3 bvh_scratch_point(BvhRef s, uint word) {
     if (!bvh_scratch_has_point(s, word)) {
         return vec3(0.0);
@@ -262,7 +266,8 @@ void bvh_set_scratch_point(BvhRef s, uint word, vec3 point) {
     }
 }
 
-// Adds to a word that others add to at the same time, and returns the value before.
+// Adds to a word with an atomic operation, since other invocations may add to it, and returns the value
+// before.
 uint bvh_add_scratch(BvhRef s, uint word, uint value) {
     if (word >= BVH_HEADER(s).scratch_capacity) {
         return 0u;

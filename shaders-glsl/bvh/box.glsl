@@ -1,21 +1,29 @@
-// The conservative test of a ray against the boxes of a node's children.
+// Tests a ray against the boxes of a node's children. The test is conservative: it may accept a box that the
+// ray misses, but never rejects a box that holds a triangle which the triangle test would accept.
 // Reads, writes: nothing.
-// Source: Kay and Kajiya 1986 (slabs); the margin is derived in docs/systems/bvh.md.
+// Source: Kay and Kajiya 1986 (slabs); docs/systems/bvh.md derives the margin.
 #ifndef BVH_BOX_GLSL
 #define BVH_BOX_GLSL
 
 #include "bvh/accessors.glsl"
 
-// Key of a child that is not to be entered.
+// Key of a child that the ray does not enter.
 #define BVH_NO_KEY 0xFFFFFFFFu
 
-// Ray in the form for tests of boxes, with the sides that it reaches first and last along each axis.
+// A ray in the form that box tests need. Instead of widening each box by a margin, the test moves the ray's
+// origin: for sides that the ray reaches first in the direction of the ray, for sides that it reaches last
+// against that direction.
 struct BvhRay {
-    vec3 origin_first;    // the origin moved by the margin: first sides are seen from here
-    vec3 origin_last;     // the origin moved by the margin the other way: last sides are seen from here
-    vec3 inverse;         // of the direction, finite and not zero
-    float t_min;
-    bvec3 descends;       // along which axes the ray reaches upper sides first
+    // origin from which t of first sides is computed, metres: moved so that the ray reaches them earlier by
+    // the margin
+    vec3 origin_first;
+    // origin from which t of last sides is computed, metres: moved so that the ray reaches them later by the
+    // margin
+    vec3 origin_last;
+    vec3 inverse;         // reciprocal of each component of the direction; finite and not zero
+    float t_min;          // smallest t of hits, at least 0
+    // axes along which the direction is negative, so that the ray reaches upper sides first
+    bvec3 descends;
 };
 
 float bvh_inverse(float component, float smallest) {
@@ -23,9 +31,10 @@ float bvh_inverse(float component, float smallest) {
     return 1.0 / (component < 0.0 ? -size : size);
 }
 
-// Makes the ray. `lower` and `upper` hold all triangles of the tree, so that one margin serves all its boxes.
-// A direction without a component along an axis is taken to have a tiny one: over the length of the boxes hit
-// it moves the ray by less than the margin, and no product below can become 0 times infinity.
+// Returns a ray for box tests. `lower` and `upper` are bounds of all triangles of the tree, so that one
+// margin serves all boxes. Components of the direction that are zero or very small are replaced by a very
+// small one. Up to the farthest box that the ray hits, this moves the ray by less than the margin, and it
+// prevents products of 0 and infinity below.
 BvhRay bvh_ray(vec3 origin, vec3 direction, float t_min, vec3 lower, vec3 upper) {
     float largest = max(abs(direction.x), max(abs(direction.y), abs(direction.z)));
     float smallest = max(largest * BVH_DIRECTION_FLOOR, 1.1754944e-38);
@@ -42,9 +51,9 @@ BvhRay bvh_ray(vec3 origin, vec3 direction, float t_min, vec3 lower, vec3 upper)
         descends);
 }
 
-// Returns the keys of a node's children: the t at which the ray enters the child's box, with the child's
-// number in its two lowest bits. They order the children by ray and boxes alone, always in the same way.
-// `entered` tells for each place whether there is a child whose box the ray hits, not behind `farthest`.
+// Returns the keys of a node's children, by which they are ordered. A key is the bits of the t at which the
+// ray enters the child's box, with the number of the child in the two lowest bits. Keys depend on the ray and
+// the boxes alone. `entered` says which children exist and have boxes that the ray hits before `farthest`.
 uvec4 bvh_keys(BvhRay ray, BvhChildren node, float farthest, out bvec4 entered) {
     precise vec4 first_x = (node.first_x - ray.origin_first.x) * ray.inverse.x;
     precise vec4 first_y = (node.first_y - ray.origin_first.y) * ray.inverse.y;
@@ -54,15 +63,16 @@ uvec4 bvh_keys(BvhRay ray, BvhChildren node, float farthest, out bvec4 entered) 
     precise vec4 last_z = (node.last_z - ray.origin_last.z) * ray.inverse.z;
     vec4 entry = max(max(first_x, first_y), max(first_z, vec4(ray.t_min)));
     vec4 leave = min(min(last_x, last_y), min(last_z, vec4(farthest)));
-    // Every node has two children: absent ones of a damaged node are followed and counted where they are entered
-    // at once.
+    // Every node has a first and a second child. If one of them is absent, the node is damaged; the absent
+    // child is entered nonetheless, so that its invalid reference is counted.
     bvec4 is_child = bvec4(true, true, notEqual(node.references.zw, uvec2(BVH_NONE)));
     entered = mix(bvec4(false), not(greaterThan(entry, leave)), is_child);
-    // A zero may have a sign.
+    // The mask also clears the sign, since t may be -0.
     return (floatBitsToUint(entry) & 0x7FFFFFFCu) | uvec4(0u, 1u, 2u, 3u);
 }
 
-// Returns the t of a key, at most four units of rounding before the ray enters the child.
+// Returns the t of a key. It is up to three units in the last place less than the t at which the ray enters
+// the child.
 float bvh_entry(uint key) {
     return uintBitsToFloat(key & ~3u);
 }

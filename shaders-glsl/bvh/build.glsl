@@ -1,7 +1,9 @@
-// Shared parts of the build passes: the tree being built, the invocation's number, boxes and digits.
+// What the build passes share: the push constants with the tree that is built, the number of the invocation,
+// boxes of triangles and records, and Morton codes.
 // Reads, writes: see accessors.glsl.
-// build.step is the digit of the sort, 0 is the lowest; for unions and clusters the level that is read; for chains the round, for treelets
-// BVH_TREELET_CLASSES times the round and the class.
+// The meaning of build.step depends on the pass: the digit of the sort, 0 being the lowest; the level that
+// unions or clusters are read from; the round, for the pass that lists chains; the class, for the passes
+// along chains, plus BVH_TREELET_CLASSES times the round where treelets are restructured.
 #ifndef BVH_BUILD_GLSL
 #define BVH_BUILD_GLSL
 
@@ -20,7 +22,7 @@ void bvh_triangle_box(uint primitive, out vec3 lower, out vec3 upper) {
     upper = max(a, max(b, c));
 }
 
-// Widens a box by a triangle.
+// Widens a box by the triangle of a record.
 void bvh_include_record(uint place, inout vec3 lower, inout vec3 upper) {
     uint corrupted = 0u;
     BvhRecord record = bvh_record(build.structure, place, BVH_HEADER(build.structure).record_capacity, corrupted);

@@ -1,5 +1,7 @@
-// The number of records below every node of the tree by Morton codes; and no chains yet.
+// Computes the number of records below every node of a tree over Morton codes. Also sets the numbers of
+// chains to 0.
 // Reads: nodes (ends of runs). Writes: scratch (sizes, numbers of chains).
+// One invocation per node.
 #version 460
 #include "contract/extensions.glsl"
 #include "bvh/treelets.glsl"

@@ -1,6 +1,9 @@
-// Lists the chains of a round. Their order is that of arrival, which changes nothing: chains of a class share no node.
+// Lists the chains of a round, each by its lowest node: a node none of whose children is in the node's class.
 // Reads: nodes, scratch (sizes). Writes: scratch (chains and their numbers).
-// Source: Karras and Aila 2013, section 4: in each round the smallest subtrees to restructure have twice as many leaves.
+// One invocation per node. Chains are listed in the order of arrival, which changes no result, since chains
+// of a class have no node in common.
+// Source: Karras and Aila 2013, section 4: the smallest size of subtrees that are restructured doubles from
+// round to round.
 #version 460
 #include "contract/extensions.glsl"
 #include "bvh/treelets.glsl"

@@ -1,5 +1,7 @@
-// Restructures treelets along the chains of one class, from the lowest node of each up. Chains of smaller classes come in earlier dispatches, so what is below a treelet is finished.
+// Restructures the treelets whose roots are nodes of one class. Earlier dispatches did the smaller classes,
+// so everything below a chain is finished.
 // Reads: header, scratch (chains, sizes), nodes. Writes: nodes, scratch (sizes).
+// One invocation per chain, from its lowest node upwards.
 // Source: bvh/restructure.glsl.
 #version 460
 #include "contract/extensions.glsl"
@@ -14,8 +16,8 @@ void main() {
     }
     uint size_class = build.step % BVH_TREELET_CLASSES;
     float per_metre = scene_lengths_per_metre();
-    // Nothing below a chain belongs to another chain, so no other invocation writes what this one reads.
-    // Numbers of records grow upwards, so the loop ends.
+    // Nothing below a chain's nodes belongs to another chain of the class, so no other invocation writes what
+    // this one reads. Sizes grow upwards, so the loop ends.
     uint node = bvh_scratch(build.structure, chains_word(size_class) + place);
     do {
         restructure(node, per_metre);

@@ -1,6 +1,7 @@
-// Finds the children and grandchildren that each node would open if it became a node of four: always the one with
-// the largest box, until there are four.
+// Finds which nodes below each node of two would be opened if it became a node of four: the one with the
+// largest box among its children, then the one with the largest box among the three that it has then.
 // Reads: header, nodes. Writes: scratch (openings).
+// One invocation per node of two.
 // Source: Wald, Benthin and Boulos 2008 (nodes of more children by opening the largest).
 #version 460
 #include "contract/extensions.glsl"
@@ -9,8 +10,9 @@
 
 layout(local_size_x = BUILD_GROUP_SIZE) in;
 
-// Takes a node in place of the choice so far (0: nothing) if its box is larger. One node is always chosen, so
-// that only a node over leaves has fewer children than four, even if areas are not numbers.
+// Chooses a node in place of the choice so far (0: none) if its box is larger. The first node that is offered
+// is always chosen, even if areas are not numbers; so a node of four has fewer than four children only if all
+// are leaves.
 void choose(uint reference, float of_box, uint bit, inout uint chosen, inout float largest) {
     if ((reference & BVH_LEAF) == 0u && (chosen == 0u || of_box > largest)) {
         chosen = bit;

@@ -1,6 +1,8 @@
-// Finds the nodes of the tree of two that become nodes of four. Each decides by itself: it goes up until that no
-// longer depends on what is above, which takes a few steps.
-// Reads: header, nodes, scratch (openings). Writes: scratch (numbers: 1 where it becomes one).
+// Finds the nodes of two that become nodes of four: those that are not opened for a node of four above them.
+// Reads: header, nodes, scratch (openings). Writes: scratch (numbers: 1 for a node that becomes a node of
+// four, else 0).
+// One invocation per node of two, which goes up the tree until nothing above can change the result: a few
+// steps.
 // Source: none; docs/systems/bvh.md, "Opening".
 #version 460
 #include "contract/extensions.glsl"
@@ -18,8 +20,9 @@ void main() {
         bvh_set_scratch(build.structure, number_word(node), 0u);
         return;
     }
-    // The flags tell whether this node becomes a node of four if the current node becomes one, is opened as a
-    // child of one, or is opened as a grandchild of one, which is opened no further.
+    // Says whether the lowest node becomes a node of four in each of three cases: the current node becomes
+    // one (x), is opened as the child of one (y), or is opened as the grandchild of one (z), whose children
+    // are not opened.
     bvec3 becomes = bvec3(true, false, false);
     uint link = lowest.parent;
     while (link != BVH_NONE && any(becomes) && !all(becomes)) {

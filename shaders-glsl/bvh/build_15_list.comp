@@ -1,5 +1,6 @@
-// Lists the nodes of two that become nodes of four, by their numbers.
+// Lists the nodes of two that become nodes of four, in the order of their numbers as nodes of four.
 // Reads: header, scratch (numbers). Writes: scratch (list).
+// One invocation per node of two.
 // Source: none; docs/systems/bvh.md, "Opening".
 #version 460
 #include "contract/extensions.glsl"

@@ -1,5 +1,7 @@
-// The nodes of four: children and boxes of each, from those nodes of two that are opened for it.
-// Reads: nodes of two, scratch (openings, numbers, list). Writes: nodes of four, header.node_count, header.root.
+// Makes the nodes of four: children and boxes of each follow from the nodes of two that are opened for it.
+// Reads: nodes of two, scratch (openings, numbers, list). Writes: nodes of four, header.node_count,
+// header.root.
+// One invocation per node of four.
 // Source: none; docs/systems/bvh.md, "Opening".
 #version 460
 #include "contract/extensions.glsl"

@@ -1,5 +1,6 @@
-// The box of every triangle, for the part of the build that the host does.
-// Reads: geometry. Writes: scratch.
+// Computes the box of every triangle, for a host that builds the tree.
+// Reads: geometry. Writes: scratch (boxes).
+// One invocation per triangle.
 #version 460
 #include "contract/extensions.glsl"
 #include "bvh/build.glsl"

@@ -1,7 +1,7 @@
-// Counts the digits of each chunk of keys.
+// Counts, for each digit, the keys of a chunk that have it.
 // Reads: scratch (keys). Writes: scratch (counts).
-// Source: Satish et al. 2009 (radix sort by count, running sum and scatter). One invocation counts a chunk
-// alone, so the order of equal keys is kept without atomics or barriers.
+// One invocation per chunk, so that the order of equal keys is kept without atomics or barriers.
+// Source: Satish et al. 2009 (radix sort by count, running sum and scatter).
 #version 460
 #include "contract/extensions.glsl"
 #include "bvh/sort.glsl"

@@ -1,5 +1,6 @@
-// Counts the digits of each chunk of keys, a workgroup per chunk and an invocation per key.
+// Counts, for each digit, the keys of a chunk that have it, in shared memory.
 // Reads: scratch (keys). Writes: scratch (counts).
+// One workgroup per chunk, one invocation per key.
 // Source: Satish et al. 2009 (radix sort by count, running sum and scatter).
 #version 460
 #include "contract/extensions.glsl"

@@ -1,5 +1,6 @@
-// Moves every key to its place by this digit, from one buffer of keys to the other.
-// Reads: scratch (keys, counts as starts). Writes: scratch (keys, counts).
+// Moves every key from one buffer of keys to its place in the other buffer, in the order of one digit.
+// Reads: scratch (keys, places at which the keys of a chunk begin). Writes: scratch (keys, these places).
+// One invocation per chunk.
 // Source: Satish et al. 2009.
 #version 460
 #include "contract/extensions.glsl"

@@ -1,6 +1,8 @@
-// Moves every key to its place by this digit, from one buffer of keys to the other, a workgroup per chunk of keys and an
-// invocation per key. Keys of a chunk with the same digit stay in their order: each counts those before it in a set of bits.
-// Reads: scratch (keys, counts as starts). Writes: scratch (keys).
+// Moves every key from one buffer of keys to its place in the other buffer, in the order of one digit. Keys
+// of a chunk that have the same digit stay in their order: each key counts those before it in a set of bits
+// in shared memory.
+// Reads: scratch (keys, places at which the keys of a chunk begin). Writes: scratch (keys).
+// One workgroup per chunk, one invocation per key.
 // Source: Satish et al. 2009; the sets of bits: none.
 #version 460
 #include "contract/extensions.glsl"
@@ -10,7 +12,7 @@ layout(local_size_x = BVH_SORT_CHUNK) in;
 
 const uint WORDS = BVH_SORT_CHUNK / 32u;
 
-// Sets of the chunk's keys that have each digit, a bit per key.
+// For each digit the set of the chunk's keys that have it, a bit per key.
 shared uint keys_with[BVH_DIGIT_VALUES * WORDS];
 
 void main() {

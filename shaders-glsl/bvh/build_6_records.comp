@@ -1,5 +1,7 @@
-// Copies the triangles into the order of the leaves, so that a leaf is one run of memory.
-// Reads: geometry, scratch (order), or where the order is kept the records. Writes: records.
+// Copies the triangles into records in the order of the leaves, so that the records of a leaf are
+// consecutive.
+// Reads: geometry, scratch (order); records instead of scratch if the order is kept. Writes: records.
+// One invocation per record.
 #version 460
 #include "contract/extensions.glsl"
 #include "bvh/build.glsl"

@@ -1,5 +1,7 @@
-// The union of every four boxes of one level, as a box of the next; the triangles are level 0.
+// Computes the boxes of one level, each as the union of BVH_UNION boxes of the level below; level 0 is the
+// triangles.
 // Reads: records, scratch (unions). Writes: scratch (unions).
+// One invocation per box of the level.
 #version 460
 #include "contract/extensions.glsl"
 #include "bvh/unions.glsl"

@@ -1,5 +1,6 @@
-// Merges clusters, an invocation per part: the least work.
+// Merges the clusters of each part of a level. This form does the least work.
 // Reads: header, records, scratch (clusters). Writes: nodes, scratch (clusters), header.root.
+// One invocation per part.
 // Source: bvh/clusters.glsl.
 #version 460
 #include "contract/extensions.glsl"

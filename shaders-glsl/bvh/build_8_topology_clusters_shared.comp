@@ -1,5 +1,7 @@
-// Merges clusters, a workgroup per part, in shared memory: fills a device. The tree is that of build_8_topology_clusters.comp.
+// Merges the clusters of each part of a level, in shared memory. This form fills a device with work. The tree
+// is that of build_8_topology_clusters.comp.
 // Reads: header, records, scratch (clusters). Writes: nodes, scratch (clusters), header.root.
+// One workgroup per part.
 // Source: bvh/clusters.glsl.
 #version 460
 #include "contract/extensions.glsl"
@@ -27,7 +29,7 @@ void main() {
     float per_metre = scene_lengths_per_metre();
     uint turn = 0u;
     bool every_two = false;
-    // Every invocation knows the number of clusters, so all make as many turns.
+    // The number of clusters is equal in all invocations, so all reach the same barriers.
     while (part.count > part.kept) {
         for (uint place = gl_LocalInvocationID.x; place < part.count; place += BUILD_GROUP_SIZE) {
             nearest[place] = every_two ? min(place ^ 1u, part.count - 1u) : nearest_of(place, part.count, per_metre);

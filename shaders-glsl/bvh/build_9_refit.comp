@@ -1,6 +1,8 @@
-// Boxes of all nodes over fewer records than a treelet has leaves, of a tree over triangles that have moved. Each is found
-// by itself, from all records below it; and no chains of the nodes above them yet.
+// Computes the boxes of all nodes in no chain, for triangles that have moved since the tree was built: nodes
+// with fewer records below them than a treelet has leaves. Each box is the union of all records below it.
+// Also sets the numbers of chains to 0, before the pass that lists chains.
 // Reads: nodes (children), records, scratch (sizes). Writes: nodes (boxes), scratch (numbers of chains).
+// One invocation per node.
 // Source: none; docs/systems/bvh.md, "Treelets".
 #version 460
 #include "contract/extensions.glsl"
@@ -8,7 +10,7 @@
 
 layout(local_size_x = BUILD_GROUP_SIZE) in;
 
-// Sets the box of a child of a node to that of all records below it.
+// Sets the box of a node's child to the union of all records below the child.
 void set_box_of(uint link, uint reference) {
     vec3 lower = vec3(uintBitsToFloat(0x7F800000u));
     vec3 upper = -lower;

@@ -1,6 +1,7 @@
-// Boxes of nodes along the chains of one class, from the lowest node of each up, of a tree over triangles that have moved.
-// Chains of smaller classes come in earlier dispatches, so what is below a node is finished.
+// Computes the boxes of the nodes of one class, for triangles that have moved since the tree was built.
+// Earlier dispatches did the smaller classes, so everything below a chain is finished.
 // Reads: scratch (chains, sizes), nodes, records. Writes: nodes (boxes).
+// One invocation per chain, from its lowest node upwards.
 // Source: none; docs/systems/bvh.md, "Treelets".
 #version 460
 #include "contract/extensions.glsl"
@@ -8,7 +9,7 @@
 
 layout(local_size_x = BUILD_GROUP_SIZE) in;
 
-// Sets the box of a child of a node to what is below it.
+// Sets the box of a node's child to that of the record, or of both children, that the child refers to.
 void refit(uint link, uint child) {
     vec3 lower = vec3(uintBitsToFloat(0x7F800000u));
     vec3 upper = -lower;

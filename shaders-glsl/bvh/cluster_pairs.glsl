@@ -1,31 +1,32 @@
-// The pairs of clusters that merge in a round, found by one invocation.
-// Reads: header, scratch (clusters). Writes: scratch (lists of clusters and pairs).
+// Finds the pairs of clusters of a part that merge in a round, by one invocation.
+// Reads: header, scratch (clusters). Writes: scratch (lists of clusters and of pairs).
 // Source: bvh/clusters.glsl.
 #ifndef BVH_CLUSTER_PAIRS_GLSL
 #define BVH_CLUSTER_PAIRS_GLSL
 
 #include "bvh/clusters.glsl"
 
-// Returns the word with the first record of the cluster at a place; rounds alternate between two lists.
+// Returns the word with the first record of the cluster at a place. Rounds alternate between two lists.
 uint word_of(bool is_second, uint place) {
     return is_second ? round_word(place) : list_word(build.step, place);
 }
 
-// Returns the first record of the cluster at a place; any record if there is no cluster.
+// Returns the first record of cluster `i` of a part; that of the last cluster if there is no such cluster.
 uint record_at(bool is_second, Part part, uint i) {
     return bvh_scratch(build.structure, word_of(is_second, part.first + min(i, part.count - 1u)));
 }
 
-// Lists the pairs of a round, at most `most` of them, and for the next round the clusters that are left.
-// Returns the number of pairs. Near clusters are in registers, so that each cluster is read once, and each
-// area is computed once.
+// Lists the pairs of a round, at most `most` of them, and the clusters that are left for the next round;
+// returns the number of pairs. A cluster and its neighbours are kept in registers while the loop goes along
+// the list, so that each cluster is read once, and each area is computed once.
 uint list_pairs(bool is_second, bool every_two, Part part, uint most, float per_metre) {
-    // The array holds the cluster at `place` and those after it, each with its nearest cluster so far.
+    // These arrays hold the cluster at `place` and those after it, each with its nearest cluster so far.
     Cluster clusters[BVH_CLUSTER_REACH + 1u];
     uint records[BVH_CLUSTER_REACH + 1u];
     uint nearest[BVH_CLUSTER_REACH + 1u];
     float smallest[BVH_CLUSTER_REACH + 1u];
-    // These are the records and nearest clusters of the clusters before it, the last one first.
+    // These arrays hold first records and nearest clusters of the clusters before `place`, the closest one
+    // first.
     uint records_before[BVH_CLUSTER_REACH];
     uint nearest_before[BVH_CLUSTER_REACH];
     [[unroll]] for (uint i = 0u; i < BVH_CLUSTER_REACH; i++) {

@@ -1,30 +1,34 @@
-// Clusters of records that are merged from the leaves up, level by level: of BVH_CLUSTERS that follow each other those
-// merge, in rounds, that are each other's nearest, by the area of their union, of the BVH_CLUSTER_REACH before and after; until
-// BVH_CLUSTERS_KEPT are left, which the next level takes, or, of the last level, the root.
+// Builds a tree of two from the leaves up by merging clusters. A cluster is a subtree that has no parent yet.
 // Reads: header, records, scratch (clusters). Writes: nodes, scratch (clusters), header.root.
-// Source: Meister and Bittner 2018 (nearest clusters merge in rounds); Benthin et al. 2024, "H-PLOC" (in parts of the order, a
-// few of each being left to merge with those of other parts).
+// Source: Meister and Bittner 2018 (nearest clusters merge in rounds); Benthin et al. 2024, "H-PLOC"
+// (clusters merge in parts of the order, and a few that each part keeps merge with those of other parts).
+// At level 0 each record is a cluster, in the order of their codes. A level divides its list of clusters into
+// parts of BVH_CLUSTERS consecutive ones, and the clusters of a part merge in rounds. In a round each cluster
+// chooses, of the BVH_CLUSTER_REACH clusters before it and as many after it, the one with which its union has
+// the smallest area; two clusters that choose each other merge. A part keeps at most BVH_CLUSTERS_KEPT
+// clusters, which form the list of the next level. The last level has a single part, which merges to one
+// cluster, the root.
 #ifndef BVH_CLUSTERS_GLSL
 #define BVH_CLUSTERS_GLSL
 
 #include "bvh/area.glsl"
 
-// Cluster of records, known by its first record.
+// A cluster. It is identified by its first record.
 struct Cluster {
-    vec3 lower;
-    vec3 upper;
-    uint reference;
+    vec3 lower;     // lower corner of its box, metres
+    vec3 upper;     // upper corner of its box, metres
+    uint reference; // child reference: a node or a leaf
 };
 
-// Cluster far from all others: unions with it have no finite area.
+// Stands in for a cluster that does not exist. Its box is so large that no union with it has a finite area.
 const Cluster NO_CLUSTER = Cluster(vec3(-PLACEMENT_LONGEST), vec3(PLACEMENT_LONGEST), BVH_NONE);
 
-// Clusters of an invocation or workgroup.
+// A part of the clusters of a level, which one invocation or workgroup merges.
 struct Part {
-    uint number;
-    uint first;     // place of the first one among those of the level
-    uint count;     // 0 where there are none
-    uint kept;      // how many are to be left
+    uint number;    // number of the part
+    uint first;     // place of its first cluster in the list of the level
+    uint count;     // clusters that it has now; 0 if there is no such part
+    uint kept;      // clusters at which merging ends
 };
 
 Part part_of(uint number) {
@@ -37,9 +41,10 @@ Part part_of(uint number) {
     return Part(number, first, count, total > BVH_CLUSTERS ? BVH_CLUSTERS_KEPT : 1u);
 }
 
-// These functions return words of lists: of the first record of each cluster that a level begins with or
-// leaves, in turns; of the same in every second round; and of the pairs that merge in a round. All lists take
-// the place of the keys.
+// The next three functions return words of lists, all of which take the place of the keys. A list word holds
+// the first record of the cluster at a place with which a level begins; levels alternate between two lists. A
+// round word holds the same after each odd number of rounds. Two pair words hold the first records of two
+// clusters that merge in a round.
 uint list_word(uint level, uint place) {
     return (level & 1u) * BVH_HEADER(build.structure).triangle_count + place;
 }
@@ -82,9 +87,9 @@ float area_of_both(Cluster a, Cluster b, float per_metre) {
     return area(min(a.lower, b.lower), max(a.upper, b.upper), per_metre);
 }
 
-// Takes another cluster in place of the nearest so far if it is nearer, or as near and its place differs in
-// lower bits, so that clusters in one place merge two by two. `best` begins as the place itself, which is
-// also the result if no area is a number.
+// Takes another cluster in place of the nearest one so far if it is nearer, or if it is as near and its place
+// differs from this one in lower bits; so clusters in the same place merge two by two. `best` begins as the
+// cluster's own place, and stays that if no area is a number.
 void take_nearer(uint place, uint other, float of_both, inout uint best, inout float smallest) {
     if (of_both < smallest || (of_both == smallest && (place ^ other) < (place ^ best))) {
         best = other;
@@ -92,8 +97,9 @@ void take_nearer(uint place, uint other, float of_both, inout uint best, inout f
     }
 }
 
-// True if the next round merges every two clusters, near or not: if few merged, or none because no area is a
-// number. This bounds the number of rounds. The last few clusters do not need it.
+// True if the next round is to merge every two neighbours, near or not: if this round merged few clusters, or
+// none because no area is a number. This bounds the number of rounds. Few clusters are merged in few rounds
+// in any case.
 bool is_slow(uint count, uint merged) {
     return merged == 0u || (count > BVH_CLUSTERS_KEPT && merged < count / 16u);
 }
@@ -104,8 +110,9 @@ void adopt(uint reference, uint link) {
     }
 }
 
-// True if two leaves whose records are consecutive cost no more as one leaf by surface area, where a triangle
-// costs as much as a node.
+// True if two clusters become one leaf: both are leaves, their records are consecutive and not too many for a
+// leaf, and by surface area one leaf costs no more than two leaves and a node. A triangle is taken to cost as
+// much as a node.
 bool become_leaf(Cluster a, Cluster b, uint first_record_of_b, float per_metre) {
     uint count_a = bvh_leaf_count(a.reference);
     uint count_b = bvh_leaf_count(b.reference);
@@ -118,8 +125,9 @@ bool become_leaf(Cluster a, Cluster b, uint first_record_of_b, float per_metre) 
         <= float(count_a) * area(a.lower, a.upper, per_metre) + float(count_b) * area(b.lower, b.upper, per_metre);
 }
 
-// Makes a leaf or a node of two clusters, and returns the cluster of both. The first record of the second
-// begins no cluster from now on, so that nodes are numbered by these records.
+// Makes a leaf or a node of two clusters, and returns the cluster of both. The number of the node is the
+// first record of `b` less one. This record begins no cluster from now on, so no two nodes have the same
+// number.
 Cluster joined(Cluster a, Cluster b, uint first_record_of_b, float per_metre) {
     uint node = first_record_of_b - 1u;
     if (become_leaf(a, b, first_record_of_b, per_metre)) {
@@ -134,7 +142,7 @@ Cluster joined(Cluster a, Cluster b, uint first_record_of_b, float per_metre) {
     return Cluster(min(a.lower, b.lower), max(a.upper, b.upper), node);
 }
 
-// Sets the root to the cluster that is left at last. Its node has no parent yet.
+// Sets the root to the cluster that is left at the end. If it is a node, the node has no parent.
 void set_root(Cluster cluster) {
     BVH_HEADER(build.structure).root = cluster.reference;
 }

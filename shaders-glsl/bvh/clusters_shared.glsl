@@ -1,4 +1,4 @@
-// The clusters of a workgroup in shared memory: the nearest of each, and which merge in a round.
+// Finds the pairs of clusters of a part that merge in a round, by one workgroup in shared memory.
 // Reads, writes: shared memory.
 // Source: bvh/clusters.glsl.
 #ifndef BVH_CLUSTERS_SHARED_GLSL
@@ -6,17 +6,19 @@
 
 #include "bvh/clusters.glsl"
 
-// Number of clusters of an invocation.
+// Number of clusters of which each invocation takes care.
 const uint SHARE = BVH_CLUSTERS / BUILD_GROUP_SIZE;
 const uint MASKS = BVH_CLUSTERS / 32u;
 
-// Clusters that are left: their boxes, the first record of each, and the place of the nearest of each.
+// Clusters that are left: boxes, references, the first record of each, and the place of the nearest one of
+// each.
 shared vec3 lowers[BVH_CLUSTERS];
 shared vec3 uppers[BVH_CLUSTERS];
 shared uint references[BVH_CLUSTERS];
 shared uint records[BVH_CLUSTERS];
 shared uint nearest[BVH_CLUSTERS];
-// Bits of the second of every two clusters that may merge; rounds alternate between two sets.
+// A bit per cluster: set if the cluster is the second of a pair that may merge. Rounds alternate between two
+// sets.
 shared uint seconds[2][MASKS];
 
 Cluster cluster_at(uint place) {
@@ -42,13 +44,13 @@ uint nearest_of(uint place, uint count, float per_metre) {
     return best;
 }
 
-// Returns the place of the cluster to merge with; the place itself if there is none.
+// Returns the place of the cluster with which a cluster may merge; its own place if there is none.
 uint partner_of(uint place) {
     uint partner = nearest[place];
     return nearest[partner] == place ? partner : place;
 }
 
-// Returns the number of seconds of pairs before a place.
+// Returns the number of clusters before a place that are the second of a pair.
 uint seconds_before(uint turn, uint place) {
     uint sum = 0u;
     for (uint word = 0u; word < MASKS; word++) {

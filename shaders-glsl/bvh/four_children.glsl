@@ -1,4 +1,4 @@
-// The node of four that an invocation makes, and its children so far.
+// Collects the children of the node of four that an invocation makes.
 // Reads: scratch (numbers). Writes: parents of nodes of four.
 // Source: none; docs/systems/bvh.md, "Opening".
 #ifndef BVH_FOUR_CHILDREN_GLSL
@@ -6,14 +6,15 @@
 
 #include "bvh/fours.glsl"
 
-// Node of four that this invocation makes, and its children so far with their boxes, side by side.
+// Number of the node of four, the number of its children so far, their references, and their boxes:
+// `[axis][child]`.
 uint four_number;
 uint four_count = 0u;
 uvec4 four_children;
 mat3x4 four_lower;
 mat3x4 four_upper;
 
-// Puts a child at a place.
+// Puts a child at a place of the node of four.
 void four_put(uint place, uint reference, vec3 lower, vec3 upper) {
     four_children[place] = reference;
     for (uint axis = 0u; axis < 3u; axis++) {
@@ -22,13 +23,14 @@ void four_put(uint place, uint reference, vec3 lower, vec3 upper) {
     }
 }
 
-// Adds a child of a node of two.
+// Adds a child of a node of two to the node of four.
 void four_add(uint reference, vec3 lower, vec3 upper) {
     if ((reference & BVH_LEAF) == 0u) {
         reference = bvh_scratch(build.structure, number_word(reference));
         bvh_set_parent_of_four(build.structure, reference, BVH_FOUR * four_number + four_count);
     }
-    // Constant places stay in registers. The box of an absent child is that of the first, which changes no union.
+    // The loop has constant places, so that the arrays stay in registers. An absent child gets the box of the
+    // first child, which leaves the union of all boxes unchanged.
     [[unroll]] for (uint place = 0u; place < BVH_FOUR; place++) {
         if (place == four_count || (four_count == 0u && place > 0u)) {
             four_put(place, place == four_count ? reference : BVH_NONE, lower, upper);

@@ -1,5 +1,5 @@
-// The bounds of the geometry, over which Morton codes are placed and from which rays find their margin.
-// Writes: header.
+// Stores the bounds of the geometry, which Morton codes and the margin of box tests are relative to.
+// Reads: nothing. Writes: header.
 #ifndef BVH_FROM_BOUNDS_GLSL
 #define BVH_FROM_BOUNDS_GLSL
 

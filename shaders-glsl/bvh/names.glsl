@@ -1,7 +1,9 @@
-// This structure's names for the contract's plain ones, for shaders compiled for one structure after the other.
+// The names by which files for any structure (`structure/...`) reach this one: its reference type and its
+// prefix.
 // Reads, writes: nothing.
-// No include guard: a shader with two structures includes the names of each in turn, and undefines them.
+// There is no include guard: a shader with two structures includes the names of the first, undefines them,
+// and includes those of the second.
 #define StructureRef BvhRef
 #define STRUCTURE_NAME(name) bvh_##name
-// Words of the cursor that a paused ray keeps.
+// Number of words of TraceState.cursor that a paused ray keeps.
 #define STRUCTURE_CURSOR_WORDS 2u

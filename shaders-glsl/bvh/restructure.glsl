@@ -1,21 +1,21 @@
-// Restructures one treelet: opens its root to BVH_TREELET leaves, merges them by the least area, and stores the result
-// where that makes the boxes of its nodes smaller.
+// Restructures one treelet: opens its root until it has BVH_TREELET leaves, merges these anew by the smallest
+// area, and stores the result if that makes the boxes of the treelet's nodes smaller in sum.
 // Reads: header, scratch (sizes), nodes. Writes: nodes, scratch (sizes).
-// Source: Karras and Aila 2013 (treelets by area, from the leaves up); Domingues and Pedrini 2015 (their leaves merged in
-// pairs instead of all trees over them).
+// Source: Karras and Aila 2013 (treelets by area, from the leaves up); Domingues and Pedrini 2015 (leaves
+// merged in pairs instead of a search of all trees over them).
 #ifndef BVH_RESTRUCTURE_GLSL
 #define BVH_RESTRUCTURE_GLSL
 
 #include "bvh/area.glsl"
 #include "bvh/treelets.glsl"
 
-// Leaves of the treelet, later replaced by the nodes into which they are merged. When two are merged, the
-// others move to the first places.
+// Boxes and references of the treelet's leaves and of the nodes into which they are merged. Merge number i
+// moves its two children to places 2 i and 2 i + 1, and appends their parent at the end.
 vec3 lowers[2u * BVH_TREELET - 1u];
 vec3 uppers[2u * BVH_TREELET - 1u];
 uint references[2u * BVH_TREELET - 1u];
 
-// Puts both children of a node at two places.
+// Puts both children of a node at two places of the arrays.
 void open(uint node, uint place_0, uint place_1) {
     BvhNode opened = bvh_node(build.structure, node);
     lowers[place_0] = opened.lower_0;
@@ -39,7 +39,7 @@ void exchange(uint a, uint b) {
 }
 
 void restructure(uint root, float per_metre) {
-    // Nodes of the treelet, its root first.
+    // Numbers of the treelet's nodes, its root first.
     uint nodes[BVH_TREELET - 1u];
     nodes[0] = root;
     open(root, 0u, 1u);
@@ -55,7 +55,7 @@ void restructure(uint root, float per_metre) {
                 largest = of_leaf;
             }
         }
-        // No child was opened, because an area is not a number.
+        // No leaf could be opened: all are leaves of the tree, or areas are not numbers.
         if (opened == BVH_NONE) {
             break;
         }
@@ -85,7 +85,7 @@ void restructure(uint root, float per_metre) {
         exchange(second, begin + 1u);
         lowers[end] = min(lowers[begin], lowers[begin + 1u]);
         uppers[end] = max(uppers[begin], uppers[begin + 1u]);
-        // The last merged node is the root.
+        // The merges take the nodes from the last one to the first, so the last merge makes the root.
         references[end] = nodes[leaves - 2u - merged];
         after += merged + 2u < leaves ? smallest : 0.0;
     }

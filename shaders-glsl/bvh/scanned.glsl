@@ -1,5 +1,6 @@
-// The numbers that scans run over: in the steps of the radix sort counts by digit and chunk; after these, which nodes of
-// two become nodes of four.
+// The numbers that the shared scan passes run over (ads/scan.glsl): at step 0 to BVH_DIGITS - 1 the counts of
+// the radix sort, by digit and chunk; at step BVH_DIGITS the flags of the nodes of two that become nodes of
+// four.
 // Reads, writes: scratch (counts, sums, numbers of nodes).
 #ifndef BVH_SCANNED_GLSL
 #define BVH_SCANNED_GLSL
@@ -30,7 +31,8 @@ void scan_set_sum(BvhRef s, uint step, uint block, uint sum) {
     bvh_set_scratch(s, bvh_sums(s) + block, sum);
 }
 
-// The sum of all counts is the number of triangles, which is known; that of nodes stands behind their numbers.
+// The sum of all counts is the number of triangles, which is known already. The number of nodes of four is
+// stored behind the numbers of the nodes.
 void scan_set_total(BvhRef s, uint step, uint total) {
     if (step == BVH_DIGITS) {
         bvh_set_scratch(s, scan_word(s, step) + scan_count(s, step), total);

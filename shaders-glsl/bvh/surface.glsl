@@ -1,4 +1,4 @@
-// The surface at a hit of the tree: a primitive with barycentrics.
+// Finds the surface at a hit. Hits are on triangles, with barycentrics.
 // Reads: the scene. Writes: nothing.
 #ifndef BVH_SURFACE_GLSL
 #define BVH_SURFACE_GLSL

@@ -1,4 +1,5 @@
-// Children, parent and boxes of an inner node of a tree over sorted codes, found from the codes alone.
+// Makes one inner node of a tree over sorted Morton codes: children, parent and boxes follow from the codes
+// alone, without other nodes.
 // Reads: records, scratch (keys, unions). Writes: nodes.
 // Source: Karras 2012, figure 4. Equal codes are ordered by their places.
 #ifndef BVH_TOPOLOGY_GLSL
@@ -7,6 +8,7 @@
 #include "bvh/unions.glsl"
 
 // Returns the length of the common prefix of the keys at two places; -1 if the second place does not exist.
+// The key at a place is the code with the place appended.
 int topology_common_prefix(int place, int other) {
     if (other < 0 || other >= int(BVH_HEADER(build.structure).triangle_count)) {
         return -1;
@@ -15,7 +17,7 @@ int topology_common_prefix(int place, int other) {
     return difference != 0u ? 31 - findMSB(difference) : 63 - findMSB(uint(place) ^ uint(other));
 }
 
-// Returns the reference of a child; an inner node stores the link by which it is reached.
+// Returns the reference of a child. If the child is a node, stores in it the link by which it is reached.
 uint topology_adopt(int child, bool leaf, uint link) {
     if (leaf) {
         return BVH_LEAF | uint(child);
@@ -24,9 +26,10 @@ uint topology_adopt(int child, bool leaf, uint link) {
     return uint(child);
 }
 
-// Finds the range of records of a node and its split, and stores the node.
+// Finds the run of records below a node and where its children divide it, and stores the node.
 void topology_store(int node) {
-    // The node's range of places goes from its own to the side with the longer common prefix.
+    // The run begins or ends at the node's own place. It goes to the side whose neighbour shares the longer
+    // prefix.
     int side = topology_common_prefix(node, node + 1) > topology_common_prefix(node, node - 1) ? 1 : -1;
     int outside = topology_common_prefix(node, node - side);
     int reach = 2;
@@ -40,7 +43,8 @@ void topology_store(int node) {
         }
     }
     int other_end = node + length * side;
-    // The split is the last place that shares more with this end than both ends share.
+    // The split is the last place, seen from this end, that shares a longer prefix with this end than the
+    // other end does.
     int in_common = topology_common_prefix(node, other_end);
     int split = 0;
     int step = length;

@@ -1,12 +1,15 @@
-// Finds the nearest or any hit by an ordered descent.
+// Finds a ray's nearest hit, or any hit, by a descent of the tree that enters nearer children first.
 // Reads: header, nodes, records; the scene where alpha is tested. Writes: header.corrupted.
 // Source: Laine 2010 and Hapala et al. 2011 (descent that can resume without its stack); Woop et al. 2013
 // (the triangle test).
-// A plain loop visits nodes, the references of waiting children on a stack. A node's children are entered in an order that
-// depends on ray and boxes alone, so the link of a subtree is the whole position of a traversal, and the stack may be
-// forgotten where it is full or a ray pauses: once the subtree is done, its parent is visited again for the children after
-// it. A ray for which neither happens visits no node twice.
-// cursor[0]: BVH_AT_*, cursor[1]: link of the subtree to enter or just left.
+// A loop visits nodes. References of children that are to be entered later wait on a stack. The order in
+// which the children of a node are entered depends on the ray and their boxes alone, not on the best hit. So
+// the link to a subtree tells how far a traversal has come, and the stack may be discarded at any time: once
+// the subtree is done, the ray visits the subtree's parent again and enters the children that come after the
+// subtree. The stack is discarded when it is full and when the ray pauses. A ray for which neither happens
+// visits no node twice.
+// The cursor of a paused ray: cursor[0] is BVH_AT_*, cursor[1] is the link to the subtree that is to be
+// entered or was just left.
 #ifndef BVH_TRACE_GLSL
 #define BVH_TRACE_GLSL
 
@@ -15,16 +18,16 @@
 #include "bvh/accessors.glsl"
 #include "bvh/box.glsl"
 
-// State of a ray that has not begun.
+// Value of cursor[0]: the ray has not begun.
 #define BVH_AT_START 0u
-// State of a ray whose subtree is to be entered; the subtree's box has been hit.
+// Value of cursor[0]: the subtree of cursor[1] is to be entered. The ray is known to hit its box.
 #define BVH_AT_ENTRY 1u
-// State of a ray whose subtree is done.
+// Value of cursor[0]: the subtree of cursor[1] is done.
 #define BVH_AT_EXIT 2u
 
 #define BVH_INFINITY uintBitsToFloat(0x7F800000u)
 
-// Exchanges two children of `keys` and `children` where the second comes first.
+// Exchanges two components of `keys` and of `children` if the second key is the smaller one.
 #define BVH_ORDER(i, j) { \
         bool swaps = keys.j < keys.i; \
         uvec2 first = swaps ? uvec2(keys.j, children.j) : uvec2(keys.i, children.i); \
@@ -35,7 +38,7 @@
         children.j = second.y; \
     }
 
-// Pushes a child to be entered later.
+// Pushes a child on the stack, unless the ray does not enter it.
 #define BVH_PUSH(i) \
     if (keys.i != BVH_NO_KEY) { \
         stack_children[stack_size] = children.i; \
@@ -43,8 +46,9 @@
         stack_size += 1u; \
     }
 
-// Goes to the next subtree that waits on the stack and may hold a nearer hit; if there is none, to the parent
-// of the subtree that contained all of them; if that was the tree, the ray is done.
+// Goes to the subtree that was pushed last and that the ray enters before its best hit. If no such subtree is
+// on the stack, goes to the parent of the subtree `within`, which contains everything visited since the stack
+// was last discarded. If that subtree is the whole tree, the ray is done.
 #define BVH_NEXT \
     child = BVH_NONE; \
     while (child == BVH_NONE && stack_size > 0u) { \
@@ -65,11 +69,11 @@ uint bvh_trace(BvhRef s, Ray ray, inout TraceState state, bool any_hit) {
     }
     BvhRay slabs = bvh_ray(ray.origin, ray.direction, ray.t_min, BVH_HEADER(s).lower, BVH_HEADER(s).upper);
     Hit best = state.best;
-    // The child is the subtree to enter or, if `left` is one of its children, the node to visit for the
-    // children after that.
+    // `child` is the subtree to enter. But if `left` is the number of a child, `child` is a node to visit
+    // again, for those of its children that come after child `left` in the ray's order.
     uint child = root;
     uint left = BVH_CHILDREN;
-    // Link of the subtree that contains `child` and everything that waits on the stack.
+    // Link to the subtree that contains `child` and everything on the stack; BVH_NONE for the whole tree.
     uint within = BVH_NONE;
     if (state.cursor[0] != BVH_AT_START) {
         within = state.cursor[1];
@@ -83,7 +87,8 @@ uint bvh_trace(BvhRef s, Ray ray, inout TraceState state, bool any_hit) {
     uint stack_children[BVH_STACK];
     float stack_entries[BVH_STACK];
     uint stack_size = 0u;
-    // Read once: drivers load a word of a buffer again in every turn of a loop.
+    // The capacities are read before the loop, because drivers read a word of a buffer again in each
+    // iteration.
     uint node_capacity = BVH_HEADER(s).node_capacity;
     uint record_capacity = BVH_HEADER(s).record_capacity;
     uint nodes = 0u;
@@ -115,7 +120,8 @@ uint bvh_trace(BvhRef s, Ray ray, inout TraceState state, bool any_hit) {
                 BVH_NEXT
             } else {
                 if (stack_size + BVH_CHILDREN > BVH_STACK + 1u) {
-                    // Waiting children are found again once the entered child is done.
+                    // There may be no room for the other children. They are found again once the entered
+                    // child is done.
                     within = BVH_CHILDREN * child + (keys.x & 3u);
                     stack_size = 0u;
                 } else {
@@ -133,7 +139,7 @@ uint bvh_trace(BvhRef s, Ray ray, inout TraceState state, bool any_hit) {
             break;
         }
         if ((child & BVH_LEAF) == 0u) {
-            // The budget is spent.
+            // The budget is spent, and `child` is a node that was not visited yet.
             paused = true;
             break;
         }
@@ -154,7 +160,7 @@ uint bvh_trace(BvhRef s, Ray ray, inout TraceState state, bool any_hit) {
     state.entries += nodes;
     state.tests += tests;
     if (paused) {
-        // Nodes know their own links.
+        // `child` is a node, and nodes store the link by which they are reached.
         state.cursor[0] = left < BVH_CHILDREN ? BVH_AT_EXIT : BVH_AT_ENTRY;
         state.cursor[1] = left < BVH_CHILDREN ? BVH_CHILDREN * child + left : bvh_parent(s, child);
         return TRACE_PAUSED;

@@ -1,4 +1,4 @@
-// The records of a bounding volume hierarchy with two or four children per node.
+// The records of a bounding volume hierarchy, with two or four children per node.
 // Reads, writes: nothing.
 #ifndef BVH_TYPES_GLSL
 #define BVH_TYPES_GLSL
@@ -6,74 +6,87 @@
 #include "contract/types.glsl"
 #include "bvh/constants.glsl"
 
-// Number of children of a node: 2 or 4. Constant ids 80 and 85 belong to hierarchies.
+// Number of children of a node: 2 or 4. Constant ids 80 and 85 belong to this structure.
 layout(constant_id = 80) const uint BVH_CHILDREN = 2u;
 
-// Maximum number of triangles of a leaf that clusters become; with 1 each triangle is a leaf of its own.
+// Maximum number of triangles of a leaf that is made of clusters. With 1 each triangle is a leaf.
 layout(constant_id = 85) const uint BVH_CLUSTER_LEAF = 1u;
 
 // State and sizes of one tree. Shared, 96 bytes.
 struct BvhHeader {
     uint status;            // STATUS_*; without STATUS_COMPLETE traces answer "not ready"
     uint root;              // child reference of the whole tree; BVH_NONE without triangles
-    uint triangle_count;    // triangles in the tree
+    uint triangle_count;    // triangles of the tree
     uint node_capacity;     // nodes of the tree that the pool holds
-    uint record_capacity;   // triangle records the pool holds
-    uint scratch_capacity;  // words the pool holds
+    uint record_capacity;   // triangle records that the pool holds
+    uint scratch_capacity;  // words that the scratch pool holds
     uint order_offset;      // word of the scratch pool with the primitive of the first record
-    uint order_stride;      // words from one to the next; 0 where the records keep their primitives
+    uint order_stride;      // words from one primitive to the next; 0 where the records keep their order
     vec3 lower;             // lower corner of the geometry, metres relative to the frame origin
-    uint order;             // number of the order that the triangles are in, which the host counts
+    // number that the host gave to the order of the triangles, by which it knows whether the order may be
+    // kept
+    uint order;
     vec3 upper;             // upper corner of the geometry
-    uint corrupted;         // references with an invalid index
-    uvec2 nodes_address;    // device address of the nodes; zero with descriptors, as all that follow
+    uint corrupted;         // invalid indices that traces and build passes have met
+    uvec2 nodes_address;    // device address of the nodes; zero with descriptors, as the other addresses
     uvec2 records_address;  // device address of the triangle records
     uvec2 scratch_address;  // device address of the scratch pool
     uint node_count;        // inner nodes of the tree
-    uint pair_capacity;     // nodes of two children that the pool holds: the tree's, or those that nodes of four are made of
+    // nodes of two children that the pool holds: those of the tree, or those from which nodes of four are
+    // made
+    uint pair_capacity;
 };
 
-// Inner node of a tree with two children per node: the boxes of both, so that one read decides about both.
-// Shared, 64 bytes.
-// A child reference is a node's number, or BVH_LEAF with a range of records.
-// A link refers to one child of one node: twice the node's number, plus 1 for the second child.
+// Inner node of a tree with two children per node. A node holds the boxes of its children, so that one read
+// decides about both. Shared, 64 bytes.
+// A child reference is the number of a node, or BVH_LEAF with a run of records.
+// A link refers to one child of one node: it is twice the node's number, plus 1 for the second child.
 struct BvhNode {
     vec3 lower_0;           // lower corner of the first child, metres relative to the frame origin
-    uint child_0;           // reference of the first child: a node's number, or a leaf
+    uint child_0;           // reference of the first child: the number of a node, or a leaf
     vec3 upper_0;           // upper corner of the first child
     uint child_1;           // reference of the second child
     vec3 lower_1;           // lower corner of the second child
-    // link by which this node is reached: twice the parent's number, plus 1 for its second child; BVH_NONE for the
-    // root
+    // link by which this node is reached: twice the parent's number, plus 1 if this is its second child;
+    // BVH_NONE for the root
     uint parent;
     vec3 upper_1;           // upper corner of the second child
-    // the other end of the run of records below this node, one end of which has the node's number; zero in a tree of the
-    // host or of clusters, and without a meaning where treelets were restructured
+    // number of the last or first record below this node: one end of the run of these records has the node's
+    // own number, this is the other end; zero in trees made by the host or of clusters, and meaningless after
+    // treelets were restructured
     uint other_end;
 };
 
-// Inner node of a tree with four children per node. The boxes of its children are stored in steps within their
-// union: one byte per side, rounded outwards, so that a stored box contains the exact one. Shared, 64 bytes.
-// A link refers to one child of one node: four times the node's number, plus that of the child.
+// Inner node of a tree with four children per node. The boxes of its children are stored relative to their
+// union, each side as a number of steps in one byte. Sides are rounded outwards, so that a stored box
+// contains the exact one. Shared, 64 bytes.
+// A link refers to one child of one node: it is four times the node's number, plus the number of the child.
 struct BvhNodeOfFour {
-    vec3 origin;            // lower corner of the union of the boxes, metres relative to the frame origin
-    uint steps;             // sizes of a step along x, y and z: biased exponents of single precision, a byte each
-    uvec2 x;                // sides along x in steps from the origin, a byte per child: lower sides, then upper ones
-    uvec2 y;                // sides along y
-    uvec2 z;                // sides along z
-    // link by which this node is reached: four times the parent's number, plus that of the child; BVH_NONE for the root
+    // lower corner of the union of the children's boxes, metres relative to the frame origin
+    vec3 origin;
+    // size of a step along x, y and z, in the lowest three bytes: biased exponents of single precision
+    uint steps;
+    // sides along x, in steps from the origin: lower sides of the four children in one word, a byte each;
+    // then the upper sides
+    uvec2 x;
+    uvec2 y;                // sides along y, in the same form
+    uvec2 z;                // sides along z, in the same form
+    // link by which this node is reached: four times the parent's number, plus the number of the child;
+    // BVH_NONE for the root
     uint parent;
     uint spare;             // zero
-    // references of the children: nodes' numbers, or leaves; BVH_NONE where there is none, with the box of the first
+    // references of the children: numbers of nodes, or leaves; BVH_NONE for a child that does not exist,
+    // whose box is that of the first child
     uvec4 children;
 };
 
-// Triangle in the order of the leaves. Shared, 40 bytes.
+// A triangle. Records are in the order of the leaves, so that those of a leaf are consecutive.
+// Shared, 40 bytes.
 struct BvhRecord {
     vec3 a;                 // first corner, metres relative to the frame origin
     vec3 b;                 // second corner
     vec3 c;                 // third corner
-    uint primitive;         // global triangle id
+    uint primitive;         // number of the triangle in the bound geometry
 };
 
 #endif

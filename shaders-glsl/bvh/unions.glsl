@@ -1,22 +1,22 @@
-// Boxes of runs of records, put together from unions of 4, 16, 64 ... of them.
+// Boxes of runs of consecutive records, united from stored unions of 4, 16, 64 ... records.
 // Reads: records, scratch (unions). Writes: nodes (boxes).
 #ifndef BVH_UNIONS_GLSL
 #define BVH_UNIONS_GLSL
 
 #include "bvh/build.glsl"
 
-// Returns the number of boxes of the level above one with this many.
+// Returns the number of boxes of the level above a level with this number of boxes.
 uint union_count(uint below) {
     return (below + BVH_UNION - 1u) / BVH_UNION;
 }
 
-// Returns the first word of level `level + 1`, given that of `level` and its number of boxes. Level 0 has no
-// words.
+// Returns the first word of level `level + 1`, given the first word of `level` and its number of boxes. Level
+// 0, the records, has no words.
 uint union_offset(uint level, uint offset, uint count) {
     return level == 0u ? bvh_unions(build.structure) : offset + 6u * count;
 }
 
-// Widens a box by a box of a level.
+// Widens a box by the box at a place of a level.
 void union_include(uint level, uint offset, uint place, inout vec3 lower, inout vec3 upper) {
     if (level == 0u) {
         bvh_include_record(place, lower, upper);
@@ -29,8 +29,8 @@ void union_include(uint level, uint offset, uint place, inout vec3 lower, inout 
     }
 }
 
-// Finds the box of the records from `begin` to before `end`: at each level it takes the boxes that do not
-// fill a union of the next.
+// Computes the box of the records from `begin` to before `end`. At each level it takes the boxes at both ends
+// that do not fill a box of the next level.
 void union_of_run(uint begin, uint end, out vec3 lower, out vec3 upper) {
     lower = vec3(uintBitsToFloat(0x7F800000u));
     upper = -lower;
@@ -50,8 +50,8 @@ void union_of_run(uint begin, uint end, out vec3 lower, out vec3 upper) {
     }
 }
 
-// Sets the boxes of a node whose run of records goes from one place to another, both inclusive, in either order; the last
-// record of its first child is `last_of_first`.
+// Sets the boxes of a node's two children. The run of records below the node goes from `one_end` to
+// `other_end`, both inclusive and in either order; the last record of the first child is `last_of_first`.
 void union_boxes(uint node, uint one_end, uint other_end, uint last_of_first) {
     uint middle = last_of_first + 1u;
     vec3 lower;

@@ -1,6 +1,7 @@
-// The one place that chooses the alpha test. ALPHA_SCENE is set by permutations that carry
-// the scene's set; without it geometry is opaque.
+// Chooses the alpha test that traces and builds call (`alpha_accepts`); no other file chooses it.
 // Reads, writes: see the file chosen.
+// Modules that bind the scene's descriptor set define ALPHA_SCENE and get the scene's test. All other modules
+// treat every triangle as opaque.
 #ifndef CONTRACT_ALPHA_GLSL
 #define CONTRACT_ALPHA_GLSL
 

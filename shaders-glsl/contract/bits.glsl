@@ -1,11 +1,12 @@
-// Small numbers in the bits of one word. A field is a name for its first bit and its width, which stand as two
-// arguments in the calls below: `#define X_CURSOR_VIEW 2, 3`.
+// Packs several small numbers into one 32-bit word, and reads them back.
 // Reads, writes: nothing.
+// A field of a word is a macro that expands to two arguments of the functions below, the field's first bit
+// and its width in bits: `#define X_CURSOR_VIEW 2, 3`.
 #ifndef CONTRACT_BITS_GLSL
 #define CONTRACT_BITS_GLSL
 
-// The word with a number in its field and zeros elsewhere. Bits of the number beyond the field are dropped, so that no
-// field reaches into another one.
+// Returns a word with a number in one field and zeros elsewhere. Bits of the number that do not fit the field
+// are dropped, so that no field changes another.
 uint bits_put(uint number, int first, int width) {
     return (number & ((1u << width) - 1u)) << first;
 }
@@ -14,17 +15,17 @@ uint bits_put(bool flag, int first, int width) {
     return flag ? 1u << first : 0u;
 }
 
-// The number in a field of a word.
+// Returns the number in a field of a word.
 uint bits_get(uint word, int first, int width) {
     return word >> first & ((1u << width) - 1u);
 }
 
-// True if a field holds anything but zero.
+// True if the number in a field is not zero.
 bool bits_are_set(uint word, int first, int width) {
     return bits_get(word, first, width) != 0u;
 }
 
-// A column and a row from -32,768 to 32,767.
+// Packs a cell of a view: column and row, each from -32,768 to 32,767, in 16 bits.
 uint bits_of_cell(ivec2 cell) {
     return (uint(cell.x) & 0xFFFFu) | uint(cell.y) << 16;
 }
@@ -33,7 +34,7 @@ ivec2 cell_of_bits(uint word) {
     return ivec2(int(word << 16) >> 16, int(word) >> 16);
 }
 
-// A cell of a grid with at most 1,024 along a side.
+// Packs a cell of a grid that has at most 1,024 cells along each axis, in 10 bits per axis.
 uint bits_of_grid_cell(ivec3 cell) {
     return uint(cell.x) | uint(cell.y) << 10 | uint(cell.z) << 20;
 }

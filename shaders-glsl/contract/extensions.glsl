@@ -1,4 +1,4 @@
-// The language extensions every module is compiled with.
+// The language extensions that every module is compiled with; entry points include this file first.
 // Reads, writes: nothing.
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_EXT_control_flow_attributes : require

@@ -1,4 +1,4 @@
-// Four pseudo-random words from four words, the same on every device.
+// Hashes four words to four pseudo-random words, with equal results on every device.
 // Reads, writes: nothing.
 // Source: pcg4d of Jarzynski and Olano, "Hash functions for GPU rendering", JCGT 9(3), 2020.
 #ifndef CONTRACT_RANDOM_WORDS_GLSL
@@ -18,7 +18,7 @@ uvec4 random_words(uvec4 key) {
     return key;
 }
 
-// The upper 24 bits: a multiple of 2^-24 in [0, 1), exact in f32.
+// Returns a random number in [0, 1) from the upper 24 bits of a word: a multiple of 2^-24, exact in f32.
 float random_unit(uint bits) { return float(bits >> 8) * (1.0 / 16777216.0); }
 
 #endif

@@ -1,6 +1,7 @@
-// Forwards the contract's plain names to the structure for which a shader is compiled. `structure/...` is its
-// folder, given as STRUCTURE in the permutation list.
+// Gives the contract's functions of one structure their plain names: `trace_ray` and `surface_at`.
 // Reads, writes: see the structure.
+// Each module is compiled for one structure. The include path `structure/` stands for the folder of that
+// structure, which the module's line in permutations.txt gives as STRUCTURE.
 #ifndef CONTRACT_SELECT_GLSL
 #define CONTRACT_SELECT_GLSL
 

@@ -1,22 +1,29 @@
-// The contract's trace functions of a structure, made from its own functions: an invalid ray is a miss, and a
-// structure that is not complete, or was built for other triangles than those that are bound, gives no answer, in queues
-// and in shaders of a host alike. A trace may start with a best hit of other triangles; where any hit suffices, that is the
-// answer.
-// Reads: the header of GEOMETRY_SET; otherwise, and writes: see the structure.
-// Rays and hits have ids of the whole geometry. A structure's own functions know triangles by their numbers in the part
-// that is bound: both are in the same order, so a hit of another part is known to them by its rank among these numbers.
+// Makes the contract's trace functions of a structure (docs/contract.md) from the structure's own functions.
+// Reads: the header of GEOMETRY_SET; all other reads, and all writes, are those of the structure.
+// The macro TRACE_FUNCTIONS surrounds a structure's own trace with what is common to all structures:
+// - An invalid ray is a miss.
+// - A structure gives no answer (TRACE_NOT_READY) if its build is not complete, or if it was built for other
+//   triangles than those that are bound. Shaders of a host and queue kernels therefore need no check of their
+//   own.
+// - TraceState.best may hold a hit on other triangles when a trace starts. The trace then looks for a nearer
+//   hit. If any hit will do, that hit is the answer.
+// - Rays and hits name a triangle by its id in the whole geometry, whereas a structure's own functions name
+//   it by its number in the part of the geometry that is bound. Numbers are in the order of ids. A hit on a
+//   triangle of another part has no number; in place of the number it gets its rank, the number of triangles
+//   of the bound part that have lower ids. So two hits at the same t are ordered by rank as they are by id.
 #ifndef CONTRACT_TRACE_FUNCTIONS_GLSL
 #define CONTRACT_TRACE_FUNCTIONS_GLSL
 
 #include "contract/trace_state.glsl"
 #include "ads/geometry.glsl"
 
-// A best hit by its rank in the part that is bound.
+// Returns a best hit with its triangle's id replaced by the id's rank in the part that is bound.
 Hit trace_ranked(Hit best) {
     return Hit(best.t, best.primitive < PRIMITIVE_UNKNOWN ? geometry_rank(best.primitive) : best.primitive, best.a, best.b);
 }
 
-// The best hit after a trace that began with `before`, by its id.
+// Returns the best hit after a trace that began with `before`, by the id of its triangle. If the trace did
+// not replace the hit, `before` itself is returned, since a rank need not be the number of a triangle.
 Hit trace_identified(Hit best, Hit before) {
     uvec4 found = uvec4(floatBitsToUint(vec3(best.t, best.a, best.b)), best.primitive);
     Hit ranked = trace_ranked(before);
@@ -24,10 +31,11 @@ Hit trace_identified(Hit best, Hit before) {
     return stays ? before : Hit(best.t, geometry_id_of(best.primitive), best.a, best.b);
 }
 
-// Defines <prefix>_trace_closest and <prefix>_trace_occluded, and <prefix>_trace_ray, which is either as `any_hit` says, from
-//     uint <prefix>_status(Ref s)                                                the status of the last build
-//     uint <prefix>_trace(Ref s, Ray ray, inout TraceState state, bool any_hit)  TRACE_*
-//     Hit  <prefix>_hit(Ref s, Hit best)                                         the hit that the best one represents
+// Defines <prefix>_trace_closest, <prefix>_trace_occluded, and <prefix>_trace_ray, which does what one or the
+// other does as `any_hit` says. The structure has defined:
+//     uint <prefix>_status(Ref s)             status of the last build: STATUS_* and a stamp
+//     uint <prefix>_trace(Ref s, Ray ray, inout TraceState state, bool any_hit)    a result TRACE_*
+//     Hit  <prefix>_hit(Ref s, Hit best)      the hit that the best candidate of a trace stands for
 #define TRACE_FUNCTIONS(Ref, prefix) \
     uint prefix##_trace_ray(Ref s, Ray ray, inout TraceState state, bool any_hit, out Hit hit) { \
         hit = state.best; \

@@ -1,9 +1,10 @@
-// The one place that says where the steps of a traversal are written. TRACE_LOG is set by the queue
-// kernels; elsewhere steps are discarded.
+// Chooses whether the steps of a traversal are written to a queue or discarded; no other file chooses it.
 // Reads, writes: see the file chosen.
-// Every structure calls trace_log(kind, a, b, c, t_low, t_high) for what it does, with the STEP_* kinds of
-// contract/constants.glsl; for a view that it enters trace_log_view, for a cell and what it reads of the cell trace_log_visit.
-// A cell, a node, an entry and a test are logged exactly where the state counts them.
+// Queue kernels define TRACE_LOG; in all other shaders the functions below do nothing.
+// Every structure calls trace_log for each step of a traversal, with a kind STEP_*. The meaning of a, b, c,
+// t_low and t_high depends on the kind (contract/constants.glsl). It calls trace_log_view for each view that
+// a ray enters, and trace_log_visit for each cell that is visited and each entry that is read from a cell.
+// Cells, nodes, entries and tests are logged exactly where TraceState counts them.
 #ifndef CONTRACT_TRACE_LOG_GLSL
 #define CONTRACT_TRACE_LOG_GLSL
 

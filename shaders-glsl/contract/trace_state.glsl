@@ -1,4 +1,4 @@
-// A traversal's state at the start of a ray, and the rule by which hits are ranked.
+// The state of a traversal when a ray starts, the validity of rays, and the order of hits.
 // Reads, writes: nothing.
 #ifndef CONTRACT_TRACE_STATE_GLSL
 #define CONTRACT_TRACE_STATE_GLSL
@@ -8,15 +8,17 @@
 // Constant ids 0 to 9 belong to the contract.
 layout(constant_id = 0) const uint COUNTERS = COUNTERS_OFF;
 
-// True if a search of a list is to find the next entry that may be hit in a loop of its own, so that rays that
-// run together test theirs together; false if it is to test within the loop over all entries. The host chooses
-// by the driver; hits, counters and steps are equal. Searches that gain by one form on every driver ignore it.
+// Form of the loops that search lists; the host chooses it by the driver. If true, an inner loop advances to
+// the next entry that may be hit, and the entry is tested after that loop, so that invocations that run in
+// lockstep test at the same time. If false, entries are tested within the one loop over all entries. Hits,
+// counters and steps are equal. Searches for which one form is faster on every driver ignore this constant.
 layout(constant_id = 1) const bool NESTED_SEARCH = true;
 
-// Units of work after which a ray pauses. A variable, not a constant: one kernel serves every budget.
+// Units of work after which a ray pauses: cells visited, entries read, primitives tested. This is a variable
+// and not a specialisation constant, so that one kernel serves every budget.
 uint work_budget = TRACE_WORK_BUDGET;
 
-// The state of a ray that has not been traced yet.
+// Returns the state of a ray that has not been traced yet.
 TraceState trace_state_begin(Ray ray) {
     TraceState state;
     state.best = Hit(ray.t_max, PRIMITIVE_NONE, 0.0, 0.0);
@@ -30,8 +32,9 @@ TraceState trace_state_begin(Ray ray) {
     return state;
 }
 
-// True if a ray is valid: origin and direction finite, the direction not zero,
-// no end of the range NaN, t_max not negative. Decided on bits: comparisons with NaN are not dependable.
+// True if a ray is valid: its origin and direction are finite, its direction is not zero, t_min and t_max are
+// not NaN, and t_max is not negative. The function tests bits, because comparisons with NaN are not
+// dependable.
 bool ray_is_valid(Ray ray) {
     const uint infinite = 0x7F800000u;
     bool finite = all(lessThan(floatBitsToUint(ray.origin) & 0x7FFFFFFFu, uvec3(infinite)))
@@ -41,8 +44,8 @@ bool ray_is_valid(Ray ray) {
     return finite && ends && any(notEqual(ray.direction, vec3(0.0)));
 }
 
-// True if a candidate at (t, primitive) replaces the best hit: nearer, or as near with a lower id,
-// so that the answer does not depend on the order of the candidates.
+// True if a candidate at (t, primitive) replaces the best hit: if it is nearer, or as near with a lower id.
+// The answer therefore does not depend on the order of the candidates.
 bool hit_is_better(Hit best, float t, uint primitive) {
     return t < best.t || (t == best.t && best.primitive != PRIMITIVE_NONE && primitive < best.primitive);
 }

@@ -1,6 +1,7 @@
-// The boxes of a tree of the driver, reached as ads/pools.glsl says.
-// Reads, writes: header, boxes: six floats per triangle, the lower corner and the upper one, in units of header.scale around
-// header.centre.
+// Access to the boxes from which the driver builds its tree.
+// Reads, writes: header, boxes. ads/pools.glsl says how pools are reached.
+// A box is six floats: its lower and its upper corner relative to header.centre, metres multiplied by
+// header.scale.
 #ifndef DRIVER_ACCESSORS_GLSL
 #define DRIVER_ACCESSORS_GLSL
 

@@ -1,5 +1,7 @@
-// The box of every triangle, wider than it by what rounding may move a ray against it in the driver's tests and in ours.
+// Computes the box of every triangle. It is wider than the triangle by as much as rounding may shift a ray
+// against it, in the driver's test of boxes and in the project's test of triangles.
 // Reads: geometry, header. Writes: boxes.
+// One invocation per box.
 // Source: docs/systems/driver-rt.md, "Margins".
 #version 460
 #include "contract/extensions.glsl"
@@ -11,7 +13,7 @@
 
 layout(local_size_x = BUILD_GROUP_SIZE) in;
 
-// Margin of a box, in multiples of the rounding.
+// Margin of a box, in multiples of header.rounding.
 #define DRIVER_MARGINS 4.0
 
 void store(uint box, vec3 lower, vec3 upper) {
@@ -28,9 +30,9 @@ void main() {
         return;
     }
     if (box >= geometry_triangle_count()) {
-        // The device may know fewer triangles than the host. Boxes of NaN should be left out by the driver,
-        // but Mesa 25's tree then finds nothing; therefore they are a point at a corner of the bounds, and
-        // rays ignore them.
+        // The device may know fewer triangles than the host. Further boxes are a point at a corner of the
+        // bounds, and rays ignore them. By Vulkan, boxes with NaN would be left out of the tree, but rays
+        // find nothing in a tree that Mesa 25 makes from such boxes.
         vec3 corner = DRIVER_HEADER(build.structure).upper * DRIVER_HEADER(build.structure).scale;
         store(box, corner, corner);
         return;

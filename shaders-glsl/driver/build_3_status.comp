@@ -1,5 +1,6 @@
-// Declares the tree complete, or says that the boxes did not fit.
+// Sets the status of the structure: complete if the boxes fitted.
 // Reads: header, geometry. Writes: header.status.
+// One invocation.
 #version 460
 #include "contract/extensions.glsl"
 #include "driver/header.glsl"

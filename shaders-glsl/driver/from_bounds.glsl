@@ -1,5 +1,5 @@
-// Places boxes for the bounds of the geometry and the eye.
-// Reads: header of the geometry. Reads, writes: header.
+// Places the boxes of the driver's tree, given the bounds of the geometry and the eye.
+// Reads: header of the geometry, header. Writes: header.
 // Source: docs/systems/driver-rt.md.
 #ifndef DRIVER_FROM_BOUNDS_GLSL
 #define DRIVER_FROM_BOUNDS_GLSL

@@ -1,4 +1,4 @@
-// The surface at a hit through the driver's tree: a triangle with barycentrics.
+// Finds the surface at a hit. Hits are on triangles, with barycentrics.
 // Reads: the scene. Writes: nothing.
 #ifndef DRIVER_SURFACE_GLSL
 #define DRIVER_SURFACE_GLSL

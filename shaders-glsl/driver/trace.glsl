@@ -1,9 +1,8 @@
-// Asks the driver for the boxes that a ray passes, and tests their triangles.
+// Asks the driver for the boxes that a ray passes through, and tests their triangles.
 // Reads: header, the driver's tree, geometry. Writes: nothing.
-// Source: VK_KHR_ray_query. The triangle test is the project's, so hits do not depend on the driver; docs/systems/driver-rt.md.
-//
-// cursor: 0 flags
-//         1 place among all triangles
+// Source: VK_KHR_ray_query; docs/systems/driver-rt.md. The test of triangles is the project's, so hits do not
+// depend on the driver.
+// Words of the cursor, used by rays that test all triangles: 0 flags; 1 the place among all triangles.
 #ifndef DRIVER_TRACE_GLSL
 #define DRIVER_TRACE_GLSL
 
@@ -22,8 +21,8 @@
 
 #define DRIVER_SMALLEST_NORMAL 1.1754944e-38
 
-// Tests the triangles of all boxes between the two ends of `clip`. The driver works in units of the header's scale, along a
-// direction whose largest component is from 1 to 2.
+// Tests the triangles of all boxes that the ray passes through within the interval `clip` of t. The driver
+// works in units of the header's scale, with a direction whose largest component is from 1 to 2.
 void driver_trace_boxes(DriverRef s, Ray ray, vec3 origin, vec2 clip, float slack, bool any_hit, inout TraceState state) {
     float scale = DRIVER_HEADER(s).scale;
     float size = largest_coordinate(ray.direction);
@@ -37,7 +36,7 @@ void driver_trace_boxes(DriverRef s, Ray ray, vec3 origin, vec2 clip, float slac
         range.x, direction, range.y);
     float end = range.y;
     bool open = true;
-    // There are two loops, since software drivers end each after 65,535 iterations.
+    // There are two loops, since software drivers end a loop after 65,535 iterations.
     while (open) {
         for (uint turn = 0u; open && turn < work_budget; turn++) {
             open = rayQueryProceedEXT(query);
@@ -47,9 +46,9 @@ void driver_trace_boxes(DriverRef s, Ray ray, vec3 origin, vec2 clip, float slac
             uint primitive = uint(rayQueryGetIntersectionPrimitiveIndexEXT(query, false));
             state.entries++;
             trace_log_visit(STEP_ENTRY, primitive, 0u, 0u, 0.0, 0.0);
-            // Boxes beyond the number of triangles belong to none.
+            // Boxes beyond the number of triangles belong to no triangle.
             if (primitive < count && test_anywhere(ray, primitive, state)) {
-                // Boxes that begin behind the best hit are left out.
+                // Ends the query at the best hit, so that boxes behind it are not visited.
                 float best = (state.best.t + slack) * longer * scale;
                 if (any_hit) {
                     open = false;
@@ -63,7 +62,7 @@ void driver_trace_boxes(DriverRef s, Ray ray, vec3 origin, vec2 clip, float slac
     rayQueryTerminateEXT(query);
 }
 
-// Traces the whole ray.
+// Traces a ray. Only rays that test all triangles can pause.
 uint driver_trace(DriverRef s, Ray ray, inout TraceState state, bool any_hit) {
     vec3 origin = ray.origin - DRIVER_HEADER(s).centre;
     float reach = DRIVER_HEADER(s).reach;
@@ -74,7 +73,7 @@ uint driver_trace(DriverRef s, Ray ray, inout TraceState state, bool any_hit) {
         trace_log(STEP_SKIP, SKIP_BOUNDS, 0u, 0u, ray.t_min, ray.t_max);
         return TRACE_MISS;
     }
-    // Beyond this distance rounding exceeds the margins of boxes, and directions of subnormal numbers have no
+    // Beyond this distance rounding exceeds the margins of the boxes. Directions of subnormal numbers have no
     // scale.
     bool is_near = largest_coordinate(origin) <= ORIGIN_LIMIT * reach;
     if (is_near && largest_coordinate(ray.direction) >= DRIVER_SMALLEST_NORMAL) {

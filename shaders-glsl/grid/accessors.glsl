@@ -1,7 +1,8 @@
-// The pools of a grid, reached as ads/pools.glsl says.
-// Reads, writes: header, lists, entries, scratch. Lists hold a word per cell: the length of its list, then where it
-// begins, and once all entries are stored where it ends. Scratch holds the sums of the scan, and behind these the
-// large-triangle queue.
+// Access to the pools of a grid.
+// Reads, writes: header, lists, entries, scratch. ads/pools.glsl says how pools are reached.
+// The pool of lists has one word per cell. It holds the length of the cell's list, then the place of its
+// begin, and once all entries are stored the place of its end. The pool of scratch holds the sums of the
+// scan, and behind them the large-triangle queue.
 #ifndef GRID_ACCESSORS_GLSL
 #define GRID_ACCESSORS_GLSL
 
@@ -22,7 +23,7 @@ uint grid_cell_count(GridRef s) {
     return GRID_HEADER(s).cells[0] * GRID_HEADER(s).cells[1] * GRID_HEADER(s).cells[2];
 }
 
-// Returns the index of the list of a cell; lists of a column are contiguous.
+// Returns the index of the list of a cell. Lists of the cells of a column are consecutive.
 uint grid_list(ivec3 cell, uvec3 cells) {
     return (uint(cell.y) * cells.x + uint(cell.x)) * cells.z + uint(cell.z);
 }
@@ -36,7 +37,7 @@ uint grid_stored(GridRef s) {
     return min(GRID_HEADER(s).demand, GRID_HEADER(s).capacity);
 }
 
-// Returns the number of words of scratch before the large-triangle queue.
+// Returns the number of words of scratch that lie before the large-triangle queue.
 uint grid_scan_words(GridRef s) {
     return (grid_cell_count(s) + SCAN_BLOCK - 1u) / SCAN_BLOCK;
 }

@@ -1,7 +1,7 @@
-// Work of a binning pass of a grid on a triangle in a column of cells; BIN_VISIT says which pass it is.
-// Reads: geometry, header. Writes: lists, entries.
-// Source: Kalojanov and Slusallek 2009, who sort pairs of triangle and cell; here lengths are counted, scanned, and the
-// lists filled. ads/box_clip.glsl decides which cells a triangle reaches into.
+// What a binning pass of a grid does with a triangle in a column of cells; BIN_VISIT says which pass it is.
+// Reads: geometry, header. Writes: lists, entries; large-triangle queue, header.large_demand, header.groups.
+// Source: Kalojanov and Slusallek 2009, who sort pairs of triangle and cell. Here lists are counted, scanned
+// and filled. ads/box_clip.glsl decides which cells a triangle reaches into.
 #ifndef GRID_BINNED_GLSL
 #define GRID_BINNED_GLSL
 
@@ -20,19 +20,19 @@
 
 #define bin_built build.structure
 
-// Returns the number of views: a column of cells along z is visited once.
+// Returns the number of views: 1, along z, so that each column of cells is visited once.
 uint bin_view_count() {
     return 1u;
 }
 
-// Triangle, with the first and last column that may hold any part of it.
+// A triangle that is binned.
 struct Bin {
-    uint primitive;
-    uvec3 cells;          // of the grid
-    BoxClip clip;
-    ivec2 lower;
-    ivec2 upper;
-    bool large;
+    uint primitive;       // number of the triangle in the bound geometry
+    uvec3 cells;          // cells of the grid along each axis
+    BoxClip clip;         // the triangle in units of cells
+    ivec2 lower;          // first column that may hold any part of it
+    ivec2 upper;          // last column
+    bool large;           // true if there are too many cells for one invocation
 };
 
 bool bin_load(uint primitive, out BinTriangle triangle) {

@@ -1,5 +1,6 @@
-// Declares the structure complete, or says that something did not fit.
+// Sets the status of the grid: complete if everything fitted.
 // Reads: header, geometry. Writes: header.status.
+// One invocation.
 #version 460
 #include "contract/extensions.glsl"
 #include "grid/header.glsl"

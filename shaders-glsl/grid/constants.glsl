@@ -2,10 +2,12 @@
 #ifndef GRID_CONSTANTS_GLSL
 #define GRID_CONSTANTS_GLSL
 
-// Maximum cells along a side: a cell's three indices are packed into 10 bits each.
+// Maximum number of cells along a side. The cursor of a ray packs the three indices of a cell into 10 bits
+// each.
 #define GRID_SIDE_LIMIT 1024u
 
-// Maximum cells of a triangle's bounds that one invocation bins; triangles with more get workgroups of their own.
+// Maximum number of cells within the bounds of a triangle that one invocation bins. Triangles with more get
+// workgroups of their own.
 #define GRID_BIN_CELLS 4096
 
 #endif

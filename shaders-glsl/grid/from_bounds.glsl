@@ -1,5 +1,5 @@
-// Places the cells of a grid for the bounds of the geometry and the eye.
-// Reads: header of the geometry. Reads, writes: header.
+// Places the cells of a grid, given the bounds of the geometry and the eye.
+// Reads: header of the geometry, header. Writes: header.
 // Source: docs/systems/grid.md.
 #ifndef GRID_FROM_BOUNDS_GLSL
 #define GRID_FROM_BOUNDS_GLSL

@@ -1,4 +1,5 @@
-// The numbers that the scan runs over: lengths of lists become places, and their sum the demand.
+// The numbers that the shared scan passes run over (ads/scan.glsl): the lengths of lists, which become the
+// places where lists begin. Their sum is the demand.
 // Reads, writes: lists, scratch, header.demand.
 #ifndef GRID_SCANNED_GLSL
 #define GRID_SCANNED_GLSL

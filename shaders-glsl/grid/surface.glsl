@@ -1,4 +1,4 @@
-// The surface at a hit of a grid: a triangle with barycentrics.
+// Finds the surface at a hit. Hits are on triangles, with barycentrics.
 // Reads: the scene. Writes: nothing.
 #ifndef GRID_SURFACE_GLSL
 #define GRID_SURFACE_GLSL

@@ -1,13 +1,11 @@
-// Follows a ray from cell to cell of a grid and tests the triangles that each cell lists.
+// Marches a ray from cell to cell of a grid, and tests the triangles that each cell lists.
 // Reads: header, lists, entries, geometry. Writes: header.corrupted.
-// Source: Amanatides and Woo 1987, with t of each plane computed anew instead of accumulated (ads/box_cells.glsl). Indices
-// only go forwards, and a cell is missed by no more than rounding, for which its list has a margin. Instead of their
-// mark of the ray that a triangle was last tested against, the two triangles tested last are kept.
-//
-// cursor: 0 flags
-//         1 t
-//         2 cell
-//         3 next entry, or place among all triangles
+// Source: Amanatides and Woo 1987. Here t of each plane is computed from the plane's number instead of being
+// accumulated (ads/box_cells.glsl). Indices only change in the direction of the ray. So the march misses a
+// cell that the exact ray crosses only if the ray is within rounding of the cell's side, for which lists have
+// a margin. Where the paper marks a triangle with the ray that tested it last, this trace remembers the two
+// triangles that it tested last.
+// Words of the cursor: 0 flags; 1 t; 2 the cell; 3 the next entry, or the place among all triangles.
 #ifndef GRID_TRACE_GLSL
 #define GRID_TRACE_GLSL
 
@@ -25,7 +23,8 @@
 // Value of the next entry if the list of the cell has not been begun.
 #define GRID_LIST_BEGIN 0xFFFFFFFFu
 
-// Returns begin and end of the list of a cell. A list that leaves the pool is counted and is empty.
+// Returns begin and end of the list of a cell. A list that leaves the pool is counted as corrupted, and read
+// as empty.
 uvec2 grid_entries(GridRef s, ivec3 cell, uvec3 cells, uint stored) {
     uint list = grid_list(cell, cells);
     uvec2 entries = uvec2(list == 0u ? 0u : GRID_POOL(s, lists)[list - 1u], GRID_POOL(s, lists)[list]);
@@ -36,7 +35,7 @@ uvec2 grid_entries(GridRef s, ivec3 cell, uvec3 cells, uint stored) {
     return uvec2(0u);
 }
 
-// Tests a triangle of a list. An invalid index is counted.
+// Tests a triangle of a list. An invalid index is counted and not tested.
 void grid_test(GridRef s, uint primitive, Ray ray, inout TraceState state) {
     if (primitive >= geometry_triangle_count()) {
         atomicAdd(GRID_HEADER(s).corrupted, 1u);
@@ -45,14 +44,14 @@ void grid_test(GridRef s, uint primitive, Ray ray, inout TraceState state) {
     test_anywhere(ray, primitive, state);
 }
 
-// Follows the ray from `t` to `t_last`, or from the place in the cursor. Returns true if the budget ended
-// first.
+// Marches the ray from `t` to `t_last`, or on from where it paused. `slack` bounds the error of the t of a
+// hit. Returns true if the work budget was spent before the end.
 bool grid_trace_cells(GridRef s, Ray ray, vec3 origin, float t, float t_last, float slack, bool any_hit, inout TraceState state) {
     uvec3 cells = grid_cells(s);
     uint stored = grid_stored(s);
     BoxLine line = box_line(grid_box_cells(s), origin, ray.direction);
     bvec3 up = greaterThanEqual(line.direction, vec3(0.0));
-    // This makes the end finite, even if the end of the geometry overflows.
+    // The end must be finite, even if the end of the geometry overflows.
     t_last = min(t_last, 3.0e38);
     ivec3 cell;
     uint entry = GRID_LIST_BEGIN;
@@ -67,9 +66,9 @@ bool grid_trace_cells(GridRef s, Ray ray, vec3 origin, float t, float t_last, fl
         cell = clamp(box_line_cell_at(line, t, ivec3(cells)), ivec3(0), ivec3(cells) - 1);
     }
     uvec2 tested = uvec2(PRIMITIVE_NONE);
-    // Each iteration crosses a cell, and stays below the budget.
+    // Each iteration visits a cell. There are no more iterations than units of the budget.
     while (t <= t_last && !(t > state.best.t + slack)) {
-        // A list that was being read when the ray paused goes on without a unit for its cell.
+        // If the ray paused within a list, the rest of the list takes no unit for its cell.
         bool enters = entry == GRID_LIST_BEGIN;
         if (enters) {
             if (work >= work_budget) {
@@ -130,7 +129,7 @@ bool grid_trace_cells(GridRef s, Ray ray, vec3 origin, float t, float t_last, fl
     return paused;
 }
 
-// Traces the whole ray.
+// Traces a ray.
 uint grid_trace(GridRef s, Ray ray, inout TraceState state, bool any_hit) {
     vec3 origin = ray.origin - GRID_HEADER(s).centre;
     float reach = GRID_HEADER(s).reach;
@@ -141,7 +140,7 @@ uint grid_trace(GridRef s, Ray ray, inout TraceState state, bool any_hit) {
         trace_log(STEP_SKIP, SKIP_BOUNDS, 0u, 0u, ray.t_min, ray.t_max);
         return TRACE_MISS;
     }
-    // Beyond this distance rounding exceeds the margins of cells.
+    // Beyond this distance rounding exceeds the margins of the cells.
     if (largest_coordinate(origin) > ORIGIN_LIMIT * reach) {
         uint work = 0u;
         uint place = state.cursor[3];

@@ -1,6 +1,7 @@
-// Adds one sample of ambient occlusion to every pixel of the wave: 0 where the ray is blocked, 1
-// where it is free or the camera ray hit nothing.
-// Reads: rays and hits of the queue, which is that of the shadow rays. Writes: film.
+// Adds one sample of ambient occlusion to every pixel of the wave: 0 if the ray is blocked, 1 if it is free
+// or the camera ray hit nothing.
+// Reads: rays and hits of the queue, which is that of the shadow rays. Writes: film. One invocation per slot
+// of the domain.
 // Source: docs/shading.md, "Ambient occlusion".
 #version 460
 #include "contract/extensions.glsl"

@@ -1,6 +1,6 @@
-// The ambient-occlusion ray of every slot, from the surface that its camera ray hit.
-// Reads: surfaces of the queue, frame (the seed). Writes: shadow rays; selects those
-// that are active.
+// Makes the ambient-occlusion ray of every slot, which starts on the surface that the camera ray hit.
+// Reads: surfaces of the queue, frame (the seed). Writes: shadow rays; selects those that are active. One
+// invocation per slot of the domain.
 // Source: docs/shading.md, "Ambient occlusion".
 #version 460
 #include "contract/extensions.glsl"

@@ -1,5 +1,5 @@
-// Distance, normal and primitive of what the ray of every slot hit, for the pixel's record.
-// Reads: rays, hits and surfaces of the queue. Writes: AOV pixels.
+// Records distance, normal and primitive of the hit of every slot's ray, for the pixel.
+// Reads: rays, hits and surfaces of the queue. Writes: AOV pixels. One invocation per slot of the domain.
 // Source: the output conventions of docs/shading.md and of the command.
 #version 460
 #include "contract/extensions.glsl"

@@ -1,5 +1,6 @@
-// Records the hit of every slot as materials and meshes have it, for the pixel.
-// Reads: surfaces of the queue, geometry, draws, materials, vertex attributes. Writes: surface pixels.
+// Records the hit of every slot in terms of materials and meshes, for the pixel.
+// Reads: surfaces of the queue, geometry, draws, materials, vertex attributes. Writes: surface pixels. One
+// invocation per slot of the domain.
 // Source: docs/images.md, "Further images".
 #version 460
 #include "contract/extensions.glsl"
@@ -10,19 +11,20 @@
 
 layout(local_size_x = QUEUE_GROUP_SIZE) in;
 
-// Hit of the ray through a pixel's centre, as materials and meshes have it. Shared, 48 bytes.
+// Hit of the ray through a pixel's centre, in terms of materials and meshes. Shared, 48 bytes.
 struct AovSurface {
-    vec3 albedo;          // base colour, linear; of an unlit material what it shows; 0: nothing
-    vec3 position;        // metres relative to the frame origin; 0: nothing
-    vec2 uv;              // texture coordinates 0; 0 where the mesh has none or the triangle is not known
-    vec2 weights;         // of vertices 1 and 2 of the triangle; 0 where it is not known
+    vec3 albedo;          // base colour, linear; of an unlit material the colour it shows; 0 without a hit
+    vec3 position;        // metres relative to the frame origin; 0 without a hit
+    vec2 uv;              // texture coordinates 0; 0 if the mesh has none or the triangle is not known
+    vec2 weights;         // weights of vertices 1 and 2 of the triangle; 0 if the triangle is not known
     uint material;        // index of the material, or PRIMITIVE_NONE
     uint instance;        // index of the instance, or PRIMITIVE_NONE
 };
 
 layout(set = INTEGRATOR_SET, binding = 9, scalar) writeonly buffer AovSurfaceBuffer { AovSurface aov_surfaces[]; };
 
-// Returns the weights of vertices 1 and 2 at a point of the triangle with these corners; 0 if it has no area.
+// Returns the weights of vertices 1 and 2 at a point of the triangle with these corners; 0 if the triangle
+// has no area.
 vec2 weights_at(vec3 point, vec3 a, vec3 b, vec3 c) {
     vec3 ab = b - a;
     vec3 ac = c - a;

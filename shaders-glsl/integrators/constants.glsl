@@ -7,8 +7,7 @@
 // Mark of Whitted's integrator in WaveConstants.marks, beside WAVE_ROUND_*: mirrored and refracted rays are
 // traced whatever their weight.
 #define WHITTED_SELECTS_ALL 4u
-// Mark of Whitted's integrator: surfaces that the camera sees send rays on where they mirror, and no other
-// surface does.
+// Mark of Whitted's integrator: of the surfaces that the camera sees, only those that mirror send rays on.
 #define WHITTED_SELECTS_REFLECTIVE 8u
 // Mark of Whitted's integrator: only surfaces that mirror or refract trace shadow rays.
 #define WHITTED_SHADOWS_SPECULAR 16u
@@ -17,28 +16,29 @@
 // Mark of Whitted's integrator: no shadow ray is traced.
 #define WHITTED_SHADOWS_NONE 64u
 
-// Value of WhittedState.waiting if no ray is left to be traced.
+// Value of WhittedState.waiting if the tree has no ray left to trace.
 #define WHITTED_ENDED 0xFFFFFFFFu
 
-// Value of FetchConstants.step: counts the hits of each pixel.
+// Value of FetchConstants.step: the pass counts the hits of each pixel.
 #define FETCH_COUNT 0u
-// Value of FetchConstants.step: gives each list its place.
+// Value of FetchConstants.step: the pass gives each list its place.
 #define FETCH_PLACE 1u
-// Value of FetchConstants.step: stores the slots of each list.
+// Value of FetchConstants.step: the pass stores the slots of each list.
 #define FETCH_STORE 2u
-// Largest number of hits of a list that one fragment looks at. Software drivers end the loops of an
-// invocation after 65,535 iterations in all, and every surface has loops of its own.
+// Maximum number of hits of a list that one fragment looks at. Software drivers end the loops of an
+// invocation after 65,535 iterations in all, and computing a surface takes loops of its own.
 #define FETCH_PART 256u
-// Value of WhittedNode.branch for the rays of a cube map: no camera ray has their random numbers.
+// Value of WhittedNode.branch for the rays of a cube map. It gives them random numbers that no camera ray
+// has.
 #define CUBE_MAP_BRANCH 1u
 
 // Mark of the pass that emits photons in WaveConstants.marks, beside WAVE_ROUND_*: WaveConstants.number is
-// the radius over the diagonal of the bounds of all triangles, and not metres.
+// the radius divided by the diagonal of the bounds of all triangles, and not in metres.
 #define PHOTON_RADIUS_IS_SHARE 4u
-// Bit that replaces a pixel, with the number of the sample, in the random numbers of photons. No pixel has
-// this bit.
+// Bit that replaces the pixel, together with the number of the sample, in the random numbers of photons. No
+// pixel has this bit.
 #define PHOTON_PIXEL 0x80000000u
-// Largest number of photons that one surface looks at. Software drivers end the loops of an invocation after
+// Maximum number of photons that one surface looks at. Software drivers end the loops of an invocation after
 // 65,535 iterations in all.
 #define PHOTON_GATHER_LIMIT 60000u
 

@@ -1,5 +1,5 @@
-// A cube map of radiance around one point. Each of six faces has a border of one texel, which the next face has as
-// well, so that a lookup blends four texels of one face.
+// A cube map of radiance around one point. Each of its six faces has a border of one texel, which the
+// neighbouring face has as well, so that a lookup blends four texels of one face.
 // Reads: texels and header of INTEGRATOR_SET, frame. Writes: nothing.
 // Source: docs/cube-map.md; Greene 1986.
 #ifndef INTEGRATORS_CUBE_MAP_GLSL
@@ -10,17 +10,20 @@
 #include "integrators/storage.glsl"
 #include "scene/camera.glsl"
 
-// Size of a cube map, and its point. Shared, 44 bytes.
+// The size of a cube map, and its point. Shared, 44 bytes.
 struct CubeMapHeader {
     uint resolution;          // texels along a side of a face, without its border
     vec3 position;            // metres relative to the frame origin
-    uint is_given;            // 1: that is the point; 0: it is the centre of the bounds below, or the eye where they are empty
-    uint lower_keys[3];       // lower corner of all that is perfectly smooth: integers in the order of the floats
-    uint upper_keys[3];       // upper corner of the same
+    // 1: `position` is the point; 0: the point is the centre of the bounds below,
+    uint is_given;            // or the eye if these are empty
+    // lower corner of all perfectly smooth triangles:
+    uint lower_keys[3];       // integers in the order of the floats
+    uint upper_keys[3];       // upper corner of the same triangles, in the same form
 };
 
-// Texels face after face, row after row. Axis f / 2 is the largest of a direction in face f, negative for odd
-// f; the next axis grows along a row, and the one after that from row to row.
+// Texels lie face after face, row after row. In face f, axis f / 2 is the largest of a direction, and it is
+// negative for odd f. The next axis in cyclic order grows along a row, and the axis after it grows from row
+// to row.
 layout(set = INTEGRATOR_SET, binding = 11, scalar) readonly buffer CubeMapTexelBuffer { FilmPixel cube_map_texels[]; };
 #ifdef CUBE_MAP_HEADER_WRITTEN
 layout(set = INTEGRATOR_SET, binding = 12, scalar) buffer CubeMapHeaderBuffer { CubeMapHeader cube_map_header; };
@@ -42,7 +45,7 @@ vec3 cube_map_position() {
     return 0.5 * (lower + upper);
 }
 
-// Returns a ray from the point through a place of a texel, uniform within the texel.
+// Returns a ray from the point through a place in a texel; places are distributed uniformly over the texel.
 Ray cube_map_ray(uint texel, uint sample_index) {
     uint side = cube_map_header.resolution + 2u;
     uint face = texel / (side * side);
@@ -61,8 +64,8 @@ Ray cube_map_ray(uint texel, uint sample_index) {
                frame.camera_ray_flags, 0.0, width * frame.footprint_scale);
 }
 
-// Returns the radiance from a direction, W/(sr m^2). A texel has one sample, or none if that was not finite,
-// and is black then.
+// Returns the radiance from a direction, W/(sr m^2). A texel has one sample. If that sample was not finite,
+// the texel has none and is black.
 vec3 cube_map_radiance(vec3 direction) {
     vec3 size = abs(direction);
     uint axis = size.x >= size.y && size.x >= size.z ? 0u : (size.y >= size.z ? 1u : 2u);

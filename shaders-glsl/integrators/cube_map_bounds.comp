@@ -1,7 +1,7 @@
-// Bounds of all triangles that are perfectly smooth by their material; each invocation looks at one of so many as
-// there are invocations.
-// Reads: geometry, materials. Writes: keys of the header of the cube map, which were filled before: all bits for the lower
-// ones, none for the upper ones.
+// Finds the bounds of all triangles whose material is perfectly smooth.
+// Reads: geometry, materials. Writes: keys in the header of the cube map, which begin with all bits set
+// (lower corner) and with no bit set (upper corner).
+// One invocation per slot of the domain; it looks at every pixel_count-th triangle.
 // Source: docs/cube-map.md.
 #version 460
 #include "contract/extensions.glsl"

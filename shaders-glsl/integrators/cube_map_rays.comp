@@ -1,5 +1,5 @@
-// The ray of every texel of a cube map, through a random point of the texel.
-// Reads: header of the cube map, frame. Writes: rays of the queue.
+// Makes the ray of every texel of a cube map, through a random place in the texel.
+// Reads: header of the cube map, frame. Writes: rays of the queue. One invocation per slot of the domain.
 // Source: docs/cube-map.md.
 #version 460
 #include "contract/extensions.glsl"

@@ -1,6 +1,9 @@
-// The surfaces of those hits in the list of this pixel that are on the triangle drawn.
-// Reads: lists, rays and hits of the queue, geometry, scene. Writes: surfaces of the queue, its count.
-// Source: DIRT section 4.2.2, fetch pass. A fragment reads one part of the list: the loops of an invocation are bounded.
+// Computes the surfaces of those hits in the list of this pixel that lie on the triangle drawn.
+// Reads: lists, rays and hits of the queue, geometry, scene. Writes: surfaces of the queue, its count of
+// slots not ready.
+// One invocation per triangle, part of a list and pixel of a face that fetch.vert proposes. It reads one part
+// of the list, because the loops of an invocation are bounded.
+// Source: DIRT section 4.2.2, fetch pass.
 #version 460
 #include "contract/extensions.glsl"
 #include "integrators/fetch.glsl"
@@ -10,7 +13,7 @@ layout(location = 0) flat in uvec3 primitive_face_part;
 
 void main() {
     uint primitive = primitive_face_part.x;
-    // A face has a border of one pixel, in which there are no hits.
+    // A face has a border of one pixel, which contains no hits.
     ivec2 place = ivec2(gl_FragCoord.xy) - 1;
     if (any(lessThan(place, ivec2(0))) || any(greaterThanEqual(place, ivec2(fetch.side)))) {
         return;

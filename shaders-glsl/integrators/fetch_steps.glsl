@@ -1,13 +1,14 @@
 // The three steps that put hits into lists: counts, places of lists, entries.
 // Reads: hits of the queue, geometry, frame. Writes: lists, mask, counts, surfaces of misses.
-// Source: DIRT section 4.2.1, final storage; the mask is of triangles here.
+// Source: DIRT section 4.2.1, final storage; here the mask is one of triangles.
 #ifndef INTEGRATORS_FETCH_STEPS_GLSL
 #define INTEGRATORS_FETCH_STEPS_GLSL
 
 #include "integrators/fetch.glsl"
 #include "scene/accessors.glsl"
 
-// Returns the hit relative to the centre: differences of positions are rounded relative to themselves.
+// Returns the position of a hit relative to the centre. Corners are made relative first, so that the result
+// is rounded relative to its own size.
 vec3 hit_from_centre(Hit hit, vec3 centre) {
     vec3 a;
     vec3 b;
@@ -16,6 +17,7 @@ vec3 hit_from_centre(Hit hit, vec3 centre) {
     return (1.0 - hit.a - hit.b) * (a - centre) + hit.a * (b - centre) + hit.b * (c - centre);
 }
 
+// Counts the hit of a slot in the list of its pixel, and marks the triangle that was hit.
 void count(uint slot) {
     Hit hit = queue_hit(slot);
     if (hit.primitive == PRIMITIVE_NONE) {
@@ -44,6 +46,7 @@ void count(uint slot) {
     }
 }
 
+// Gives the list of a pixel its place.
 void place_list(uint pixel) {
     if (pixel == 0u) {
         fetch_header.vertex_count = 3u * geometry_triangle_count();
@@ -54,6 +57,7 @@ void place_list(uint pixel) {
     }
 }
 
+// Stores a slot in the list of its hit's pixel.
 void store(uint slot) {
     if (queue_hit(slot).primitive < geometry_triangle_count()) {
         uvec2 found = fetch_slots[slot];

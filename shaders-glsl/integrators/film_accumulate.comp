@@ -1,5 +1,5 @@
 // Adds the radiance of every path of a wave to its pixel.
-// Reads: path states. Writes: film.
+// Reads: path states. Writes: film. One invocation per slot of the domain.
 // Source: docs/shading.md, "Paths".
 #version 460
 #include "contract/extensions.glsl"

@@ -1,4 +1,4 @@
-// Ray casting through layers: the state of a ray, and one step of it.
+// Ray casting through layers: the state of a ray, and one step of the ray.
 // Reads: environment. Writes: nothing.
 // Source: docs/shading.md, "Layers"; Hu et al. 2014, section 4, "Ray Casting".
 #ifndef INTEGRATORS_LAYERS_GLSL
@@ -9,15 +9,15 @@
 #include "scene/environment.glsl"
 #include "scene/spawn.glsl"
 
-// Light gathered along a ray. Shared, 20 bytes.
+// The light gathered along a ray. Shared, 20 bytes.
 struct LayersState {
-    vec3 radiance;        // so far, W/(sr m^2)
-    float left;           // share of the light behind that reaches the eye
-    uint passed;          // surfaces so far
+    vec3 radiance;        // radiance gathered so far, W/(sr m^2)
+    float left;           // share of the light behind the last surface that reaches the eye
+    uint passed;          // surfaces met so far
 };
 
-// Returns the ray behind a surface (valid 0: none was hit), inactive if the ray has ended. `cut` if it ended
-// because it would have passed more than PATH_LAYER_LIMIT surfaces.
+// Returns the ray behind a surface (valid 0: the ray hit none); the ray is inactive if it has ended. `cut`
+// says that it ended because it would have passed more than PATH_LAYER_LIMIT surfaces.
 Ray layers_step(inout LayersState state, Ray ray, Surface s, out bool cut) {
     cut = state.passed >= PATH_LAYER_LIMIT && s.valid != 0u;
     if (cut) return ray_inactive();

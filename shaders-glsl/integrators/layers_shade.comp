@@ -1,7 +1,8 @@
-// One step of ray casting through layers: the surface that a ray hits adds its colour by its opacity, and the ray goes
-// on behind it. Where a ray ends, its radiance is added to its pixel.
-// Reads: rays and surfaces of the queue, states, frame, environment. Writes: states, film, rays of the queue (the next
-// round); selects the slots that have a ray to trace.
+// Makes one step of ray casting through layers: the surface that a ray hits adds its colour according to its
+// opacity, and the ray goes on behind it. If the ray ends, its radiance is added to its pixel.
+// Reads: rays and surfaces of the queue, states, frame, environment. Writes: states, film, its faults, rays
+// of the queue (the next round); selects the slots that have a ray to trace. One invocation per slot of the
+// domain.
 // Source: docs/shading.md, "Layers"; Hu et al. 2014, section 4, "Ray Casting".
 #version 460
 #include "contract/extensions.glsl"

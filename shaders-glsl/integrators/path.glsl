@@ -1,6 +1,7 @@
-// Path tracing with light sampling, one step per closest hit. With PATH_GATHERS light that comes by perfectly smooth
-// surfaces, or by any, is that of photons.
-// Reads: scene tables through scene/*.glsl; photons. Writes: nothing but its state argument; faults of photons.
+// Path tracing with light sampling, one step per closest hit. With PATH_GATHERS photons bring the light that
+// arrives over perfectly smooth surfaces, or over any surfaces.
+// Reads: scene tables through scene/*.glsl; photons. Writes: only its state argument; with photons also film
+// faults.
 // Source: docs/shading.md, "Paths", docs/photons.md, "Paths"; Veach 1997 for the power heuristic.
 #ifndef INTEGRATORS_PATH_GLSL
 #define INTEGRATORS_PATH_GLSL
@@ -15,17 +16,18 @@
 
 #define PATH_INFINITY uintBitsToFloat(0x7F800000u)
 
-// Tasks of a step at a surface, in this order.
+// Techniques of a step at a surface, in this order: light straight through a pane, a light sample, the lobes.
 #define PATH_PANE 0u
 #define PATH_LIGHT 1u
 #define PATH_LOBES 2u
 
+// Returns the state of a path that begins at the camera.
 PathState path_begin(uint pixel, uint sample_index) {
     return PathState(vec3(1.0), pixel, vec3(0.0), sample_index, 0.0, MATERIAL_NONE, 0u, 0u, 0u, 0.0);
 }
 
-// Returns the multiple-importance-sampling weight of a technique with density `used`, combined with one of
-// density `other`.
+// Returns the weight of multiple importance sampling of a technique with density `used`, combined with a
+// technique of density `other`.
 float path_power_heuristic(float used, float other) {
     if (!(other > 0.0)) return 1.0;
     float ratio = other / used;
@@ -40,11 +42,11 @@ vec3 path_transmittance(uint material_index, float distance) {
     return pow(color, vec3(distance / material.attenuation_distance));
 }
 
-// Value of PathState.bsdf_pdf if the last scatterings were perfectly smooth and one before them was not:
-// photons bring the light that light samples know.
+// Value of PathState.bsdf_pdf if the last scatterings were perfectly smooth and a scattering before them was
+// not. Photons then bring the light that light samples know.
 #define PATH_PDF_OF_PHOTONS -1.0
 
-// Returns the weight of emission hit by the ray of the last scattering.
+// Returns the weight of emission that the ray of the last scattering hits.
 float path_emission_weight(PathState state, float light_pdf) {
 #ifdef PATH_GATHERS
     if (state.bsdf_pdf < 0.0) return light_pdf > 0.0 ? 0.0 : 1.0;
@@ -57,7 +59,8 @@ bool path_is_pane(Surface s) {
     return s.transmission > 0.0 && s.thickness <= 0.0 && s.roughness < BSDF_SMOOTH_ROUGHNESS;
 }
 
-// Asks for the light of a chosen sample, which the surface reflects by `towards`.
+// Asks for the light of a light sample, if any light can arrive. `towards` is the scattering of the surface
+// in the direction of the sample.
 void path_ask_light(PathState state, Surface s, LightSample light, BsdfValue towards, inout PathStep asked) {
     float weight = (light.flags & SAMPLE_DELTA) != 0u ? 1.0 : path_power_heuristic(light.pdf, towards.pdf);
     vec3 pending = state.throughput * towards.value * light.radiance * (weight / light.pdf);
@@ -67,15 +70,15 @@ void path_ask_light(PathState state, Surface s, LightSample light, BsdfValue tow
     asked.target = light.target;
 }
 
-// True, with this probability, if a path goes straight on through a surface.
+// Chooses, with this probability, that a path goes straight on through a surface. Returns true if it does.
 bool path_chooses(inout PathState state, float probability) {
     uint dimension = RANDOM_OPACITY_FIRST + state.choices;
     state.choices += 1u;
     return random_float(state.pixel, state.sample_index, dimension) < probability;
 }
 
-// Continues in the same direction behind a surface. That is not a scattering: shadow rays go straight through
-// surfaces, too, so the density of the last scattering still tells how an emitter is found.
+// Lets a path go on in the same direction behind a surface. This is not a scattering: shadow rays go straight
+// through surfaces, too, so the density of the last scattering still tells how an emitter is found.
 void path_pass(inout PathState state, Ray ray, Surface s, vec3 direction, float distance, float footprint,
                inout PathStep asked) {
     if (state.passed >= PATH_LAYER_LIMIT) {
@@ -91,9 +94,9 @@ void path_pass(inout PathState state, Ray ray, Surface s, vec3 direction, float 
     asked.next_ray.cone_spread = ray.cone_spread;
 }
 
-// Goes straight through a smooth thin pane with the probability of the light that it lets through, or else
-// compensates for that light. Returns true if the path went through. `terms` are of the pane and the
-// direction from which it is seen.
+// Lets a path go straight through a smooth thin pane, with a probability that follows from the share of light
+// that the pane lets through; otherwise weighs the path to make up for that share. Returns true if the path
+// goes through. `terms` are those of the pane, seen from the path's previous vertex.
 bool path_pass_pane(inout PathState state, Ray ray, Surface s, BsdfTerms terms, vec3 direction, float distance,
                     float footprint, inout PathStep asked) {
     vec3 straight = bsdf_straight(terms);
@@ -115,11 +118,12 @@ vec3 path_straight_share(Surface s, vec3 o) {
     return SHADING_BLEND ? share + (1.0 - s.opacity) : share;
 }
 
-// Makes one step of a shadow ray where surfaces let light pass: `ray` was traced for its closest hit, `s` is
-// the surface that it hit (valid 0: none), `target` its end if its length is finite. Takes the light that the
-// surface stops from `pending`, and returns the ray from there on; inactive if the ray has ended, and light
-// that arrives was added to the state then. `cut` as in PathStep. state.passed counts for this ray: it is 0
-// when the ray starts, and the caller must clear it when the ray has ended.
+// Makes one step of a shadow ray, in scenes where surfaces let light through. `ray` was traced for its
+// closest hit; `s` is the surface that it hit (valid 0: none); `target` is its end, if its length is finite.
+// The step takes the light that the surface stops from `pending`, and returns the ray from there on. That ray
+// is inactive if the shadow ray has ended; light that arrives was then added to the state. `cut` is as in
+// PathStep. state.passed counts surfaces of the shadow ray: it is 0 when the ray starts, and the caller
+// clears it when the ray has ended.
 Ray path_shadow_step(inout PathState state, Ray ray, Surface s, vec3 target, inout vec3 pending, out uint cut) {
     cut = 0u;
     if (s.valid == 0u) {
@@ -143,7 +147,7 @@ Ray path_shadow_step(inout PathState state, Ray ray, Surface s, vec3 target, ino
     return next;
 }
 
-// Scatters the path; next_ray stays inactive if the path ends.
+// Scatters the path. asked.next_ray stays inactive if the path ends.
 void path_scatter(inout PathState state, Ray ray, Surface s, BsdfSample chosen, float footprint, inout PathStep asked) {
     if (chosen.flags == 0u) return;
     state.throughput *= chosen.weight;
@@ -172,8 +176,8 @@ void path_scatter(inout PathState state, Ray ray, Surface s, BsdfSample chosen, 
                                        : max(ray.cone_spread, 0.5 * s.roughness * s.roughness);
 }
 
-// Makes one step of a path: `ray` was traced, `s` is the surface it hit (valid 0: none). Adds emission to the
-// state and asks for a shadow ray and a next ray; the path has ended if next_ray.t_max < 0.
+// Makes one step of a path: `ray` was traced, and `s` is the surface that it hit (valid 0: none). Adds
+// emission to the state, and asks for a shadow ray and a next ray. The path has ended if next_ray.t_max < 0.
 PathStep path_step(inout PathState state, Ray ray, Surface s, uint max_bounces) {
     PathStep asked = PathStep(ray_inactive(), ray_inactive(), vec3(0.0), vec3(0.0), 0u);
     float speed = length(ray.direction);
@@ -202,19 +206,19 @@ PathStep path_step(inout PathState state, Ray ray, Surface s, uint max_bounces) 
         state.radiance += state.throughput * s.emission * weight;
     }
 #ifdef PATH_GATHERS
-    // The ray of a rough surface looks only for emission: photons brought it all other light.
+    // A ray that leaves a rough surface looks only for emission: photons brought all other light.
     if (PHOTONS_ARE_ALL && state.bsdf_pdf > 0.0) return asked;
 #endif
     Surface seen = s;
     BsdfTerms terms;
     BsdfSample chosen;
-    // Light through a pane, a light sample, then the surface's lobes: one copy of the terms serves all, and one of the
-    // random numbers and of the lobes the last two.
+    // The techniques share one copy of the code that makes the terms. Light sample and lobes also share one
+    // copy of the random numbers and of the evaluation of lobes.
     uint technique = SHADING_PANES && path_is_pane(s) ? PATH_PANE : PATH_LIGHT;
     [[dont_unroll]] for (; technique <= PATH_LOBES; technique++) {
         if (technique == PATH_LIGHT) {
             if (state.bounce >= max_bounces) return asked;
-            // Light samples see the smooth shape, where that is asked for.
+            // A light sample starts from the smooth shape, if the scene asks for this.
             seen = terminator_surface(s, -direction);
         } else {
             seen = s;
@@ -250,7 +254,7 @@ PathStep path_step(inout PathState state, Ray ray, Surface s, uint max_bounces) 
             chosen = bsdf_chosen(chosen, value);
             continue;
         }
-        // Scattered rays do not leave below the triangle, so nothing else finds the light there.
+        // No scattered ray leaves below the triangle, so no other technique finds the light there.
         bool is_found = (dot(towards, s.geometric_normal) > 0.0) == (dot(towards, seen.geometric_normal) > 0.0);
         if (TERMINATOR_IS_SMOOTH && !is_found) value.pdf = 0.0;
         path_ask_light(state, seen, light, value, asked);

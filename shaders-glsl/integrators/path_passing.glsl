@@ -1,4 +1,4 @@
-// Paths and their shadow rays in turns: the next ray of either.
+// Lets paths and their shadow rays take turns: finds the next ray of either.
 // Reads: waiting paths, the scene. Writes: waiting paths.
 // Source: docs/shading.md, "Straight through".
 #ifndef INTEGRATORS_PATH_PASSING_GLSL
@@ -6,7 +6,8 @@
 
 #include "integrators/path_storage.glsl"
 
-// Returns the next ray of a path that has shaded the hit of its own ray: its shadow ray if it has one.
+// Shades the hit of a path's own ray. Returns the next ray to trace: the path's shadow ray if it has one,
+// else its next ray.
 Ray shade_path(uint slot, inout PathState state, Ray ray, Surface surface, out uint cut) {
     PathStep asked = path_step(state, ray, surface, wave.limit);
     cut = asked.cut;
@@ -19,8 +20,8 @@ Ray shade_path(uint slot, inout PathState state, Ray ray, Surface surface, out u
     return asked.shadow_ray;
 }
 
-// Returns the next ray of a path whose shadow ray was traced: the shadow ray behind its hit, or the path's
-// own.
+// Makes a step of a path's shadow ray. Returns the next ray to trace: the shadow ray behind its hit or, if
+// the shadow ray has ended, the path's next ray.
 Ray shade_shadow(uint slot, inout PathState state, Ray ray, Surface surface, vec3 pending, out uint cut) {
     Ray next = path_shadow_step(state, ray, surface, path_waiting[slot].target, pending, cut);
     if (next.t_max < 0.0) {

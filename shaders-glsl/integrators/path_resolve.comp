@@ -1,5 +1,6 @@
 // Adds the light that was sampled in this round to every path whose shadow ray hit nothing.
-// Reads: hits of the queue, which is that of the shadow rays, and pending radiance. Writes: path states.
+// Reads: hits of the queue, which is that of the shadow rays; pending radiance. Writes: path states. One
+// invocation per slot of the domain.
 // Source: docs/shading.md, "Paths".
 #version 460
 #include "contract/extensions.glsl"

@@ -1,7 +1,9 @@
-// One step of every path that continues: emission, light sample, scattering. Of scenes where no surface lets light
-// pass in a straight line; path_shade_passing.comp is for the others.
-// Reads: rays and surfaces (or hits) of the queue, path states, scene, geometry. Writes: path states, shadow rays, pending
-// radiance, rays of the queue (the next closest-hit round); selects the slots that have a ray to trace, in both queues.
+// Makes one step of every path that goes on: emission, light sample, scattering. Runs in scenes where no
+// surface lets light through in a straight line; path_shade_passing.comp is for other scenes.
+// Reads: rays and surfaces (or hits) of the queue, path states, scene, geometry.
+// Writes: path states, shadow rays, pending radiance, rays of the queue (the next closest-hit round); selects
+// the slots that have a ray to trace, in both queues.
+// One invocation per slot of the domain.
 // Source: docs/shading.md, "Paths".
 #version 460
 #include "contract/extensions.glsl"

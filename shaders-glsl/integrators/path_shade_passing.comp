@@ -1,12 +1,14 @@
-// One step of every path that continues, where surfaces let light pass in a straight line. Paths and their shadow
-// rays take turns in one queue: a path that asks for a shadow ray waits until that has ended, however many surfaces it
-// passes. Where a path ends, its radiance is added to its pixel.
-// Reads: rays and surfaces (or hits) of the queue, path states, waiting paths, scene, geometry. Writes: path states, waiting paths,
-// film, rays of the queue (the next closest-hit round); selects the slots that have a ray to trace.
+// Makes one step of every path that goes on, in scenes where surfaces let light through in a straight line.
+// Paths and their shadow rays take turns in one queue: a path that asks for a shadow ray waits until that ray
+// has ended, however many surfaces it passes. If a path ends, its radiance is added to its pixel.
+// Reads: rays and surfaces (or hits) of the queue, path states, waiting paths, scene, geometry.
+// Writes: path states, waiting paths, film, its faults, rays of the queue (the next closest-hit round);
+// selects the slots that have a ray to trace.
+// One invocation per slot of the domain.
 // Source: docs/shading.md, "Paths" and "Straight through".
 #version 460
 #include "contract/extensions.glsl"
-// Smooth thin panes are passed as well.
+// True if paths also go straight through smooth thin panes.
 layout(constant_id = 95) const bool PATHS_PASS_PANES = true;
 #define SHADING_PANES PATHS_PASS_PANES
 #include "ads/queue.glsl"

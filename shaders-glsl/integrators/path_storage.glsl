@@ -1,7 +1,8 @@
-// Paths of a wave as the kernels that shade them find and leave them.
-// Reads: hits and surfaces of the queue, the scene. Reads, writes: path states. What a scene without transmission, or without anything that lets light
-// pass in a straight line, never changes is neither stored nor read.
+// Loads and stores the paths of a wave, for the kernels that shade them.
+// Reads: hits and surfaces of the queue, the scene. Reads, writes: path states.
 // Source: wavefront path tracing as in pbrt-v4, section 15.
+// Members that never change, in a scene without transmission or without light that passes surfaces in a
+// straight line, are neither stored nor read.
 #ifndef INTEGRATORS_PATH_STORAGE_GLSL
 #define INTEGRATORS_PATH_STORAGE_GLSL
 
@@ -9,7 +10,7 @@
 #include "integrators/path.glsl"
 #include "scene/surface.glsl"
 
-// Returns the path of a slot; a new one in the first round.
+// Returns the path of a slot; in the first round, a new one.
 PathState path_of(uint slot) {
     PathState state = path_begin(wave_pixel(slot), wave.sample_index);
     if (wave.round == 0u) return state;
@@ -26,6 +27,7 @@ PathState path_of(uint slot) {
     return state;
 }
 
+// Stores the path of a slot.
 void path_keep(uint slot, PathState state) {
     path_states[slot].throughput = state.throughput;
     path_states[slot].radiance = state.radiance;
@@ -39,8 +41,8 @@ void path_keep(uint slot, PathState state) {
     }
 }
 
-// Returns the surface that the ray of a slot hit; a miss if it hit none. With SURFACES_OF_HITS the surface is
-// that of the triangle, and is looked up here; otherwise the queue has it.
+// Returns the surface that the ray of a slot hit; that of a miss if it hit none. With SURFACES_OF_HITS the
+// surface is that of a triangle and is computed here, otherwise the queue holds it.
 Surface path_surface(uint slot, Ray ray) {
 #ifdef SURFACES_OF_HITS
     Hit hit = queue_hit(slot);

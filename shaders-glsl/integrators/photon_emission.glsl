@@ -1,4 +1,4 @@
-// The choice of a light, and of a ray and its flux that leave it; the sizes of the map.
+// Chooses a light, and a ray with its flux that leaves the light; computes the sizes of the photon map.
 // Reads: frame, lights, emissive triangles, environment, geometry, materials, textures. Writes: nothing.
 // Source: docs/photons.md, "Emission"; Jensen 2001, section 5.2.
 #ifndef INTEGRATORS_PHOTON_EMISSION_GLSL
@@ -7,25 +7,28 @@
 #include "integrators/photons.glsl"
 #include "scene/light.glsl"
 
-// Factor by which the disk of distant light is larger than the covered triangles, for rounding.
+// Ratio of the radius of the disk from which distant light is emitted to the radius that covers all
+// triangles, for rounding.
 #define PHOTON_DISK_MARGIN 1.001
 
-// Photon as it leaves a light.
+// A photon as it leaves a light.
 struct Emission {
-    Ray ray;                  // inactive: nothing is emitted
-    vec3 flux;                // W, over the probability of its choice
-    float range;              // metres to where a light without extent ends
+    Ray ray;                  // inactive if nothing is emitted
+    vec3 flux;                // W, divided by the probability with which the photon was chosen
+    float range;              // metres up to which a light without extent shines
 };
 
 Emission emission_none() {
     return Emission(ray_inactive(), vec3(0.0), LIGHT_INFINITY);
 }
 
+// Returns a ray of unlimited length that leaves a light.
 Ray emission_ray(vec3 origin, vec3 direction, uint primitive) {
     return Ray(origin, 0.0, direction, LIGHT_INFINITY, primitive, scene_frame().spawned_ray_flags, 0.0, 0.0);
 }
 
-// Emits from a disk perpendicular to the direction that covers all triangles, before all of them.
+// Emits from a disk that is perpendicular to the direction, covers all triangles, and lies before all of
+// them.
 Emission emission_from_afar(vec3 direction, vec3 irradiance, vec2 random) {
     vec3 centre = 0.5 * (geometry_header.lower + geometry_header.upper);
     float radius = 0.5 * length(geometry_header.upper - geometry_header.lower) * PHOTON_DISK_MARGIN;
@@ -36,6 +39,7 @@ Emission emission_from_afar(vec3 direction, vec3 irradiance, vec2 random) {
     return Emission(ray, irradiance * (MICROFACET_PI * radius * radius), LIGHT_INFINITY);
 }
 
+// Emits from a light without extent, which `pick` chooses.
 Emission emission_punctual(Frame frame, float pick, vec2 random) {
     uint index = light_search_punctual(frame.light_count, pick);
     Light light = scene_light(index);
@@ -45,7 +49,7 @@ Emission emission_punctual(Frame frame, float pick, vec2 random) {
     if (light.kind == LIGHT_DIRECTIONAL) {
         emission = emission_from_afar(light.direction, light.intensity, random);
     } else {
-        // The direction is uniform over the cone around the light's direction, or over the sphere.
+        // The direction is uniform over the cone around a spot's direction, or over the sphere.
         bool spot = light.kind == LIGHT_SPOT;
         float least = spot ? max(-light.cone_offset / light.cone_scale, -1.0) : -1.0;
         float cosine = 1.0 - random.x * (1.0 - least);
@@ -61,7 +65,8 @@ Emission emission_punctual(Frame frame, float pick, vec2 random) {
     return emission;
 }
 
-// Emits from an emissive triangle. `random` holds the side, and two numbers for the direction.
+// Emits from an emissive triangle, which `pick` chooses, at a place on it. `random` has one number for the
+// side, and two for the direction.
 Emission emission_emissive(Frame frame, float pick, vec2 place, vec3 random) {
     uint entry = light_search_emissive(frame.emissive_count, pick);
     float share = light_emissive_share(entry);
@@ -86,11 +91,13 @@ Emission emission_emissive(Frame frame, float pick, vec2 place, vec3 random) {
     return Emission(emission_ray(origin, direction, primitive), radiance * (MICROFACET_PI * area / share), LIGHT_INFINITY);
 }
 
+// Chooses a light, and a photon that leaves it. `place` has numbers for the kind of light, for the light and
+// for a place; `towards` has numbers for the direction.
 Emission emission_sample(vec4 place, vec4 towards) {
     Frame frame = scene_frame();
     vec3 shares = frame.kind_shares;
     Emission emission = emission_none();
-    // Without triangles nothing has bounds.
+    // Without triangles there are no bounds.
     if (frame.triangle_count == 0u) return emission;
     float share;
     if (SHADING_LIGHTS && place.x < shares.x) {
@@ -112,14 +119,14 @@ Emission emission_sample(vec4 place, vec4 towards) {
     return emission;
 }
 
-// Returns the radius and the side of a cell.
+// Returns the radius within which photons are gathered, and the side of a cell of the map, both in metres.
 vec2 sizes_of_map() {
     vec3 lower = geometry_header.lower;
     vec3 upper = geometry_header.upper;
     float radius = wave.number;
     if ((wave.marks & PHOTON_RADIUS_IS_SHARE) != 0u) radius *= length(upper - lower);
     vec3 farthest = max(abs(lower), abs(upper));
-    // The radius is positive even if nothing has any extent, in which case nothing is lit.
+    // The radius is positive even if the geometry has no extent, in which case nothing is lit.
     radius = max(radius, 1.0e-15);
     return vec2(radius, max(2.0 * radius, largest_component(farthest) / PHOTON_GRID_MOST));
 }

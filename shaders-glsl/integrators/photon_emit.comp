@@ -1,7 +1,7 @@
-// The photons of a sample as they leave the lights: one path per slot, its flux by what chose it. The first slot
-// also writes the header of the map.
-// Reads: frame, lights, emissive triangles, environment, geometry, materials, textures. Writes: path states, rays of the
-// queue, header.
+// Emits the photons of a sample from the lights, and writes the header of the photon map.
+// Reads: frame, lights, emissive triangles, environment, geometry, materials, textures. Writes: path states,
+// rays of the queue, header.
+// One invocation per slot of the domain, each for one photon; that of slot 0 writes the header.
 // Source: docs/photons.md, "Emission".
 #version 460
 #include "contract/extensions.glsl"
@@ -22,14 +22,15 @@ void main() {
         photon_header.radius = sizes.x;
         photon_header.cell = sizes.y;
     }
-    // These numbers belong to no pixel; the paths of one map are its samples.
+    // These random numbers belong to no pixel. The photons of one map are the samples.
     uint pixel = PHOTON_PIXEL | wave.sample_index;
     vec4 place = random_vec4(pixel, slot, RANDOM_LENS_U);
     vec4 towards = random_vec4(pixel, slot, random_dimension(0u, RANDOM_LIGHT_KIND));
     Emission emission = emission_sample(place, towards);
     vec3 flux = emission.flux / float(wave.pixel_count);
     float most = largest_component(flux);
-    // Throughput is the share of the flux of the brightest channel; radiance holds that flux, and the range.
+    // Throughput is the share, per channel, of the flux of the brightest channel. The member for radiance
+    // holds that flux, and the range of the light.
     vec3 share = most > 0.0 ? flux / most : vec3(0.0);
     PathState state = PathState(share, pixel, vec3(most, emission.range, 0.0), slot, 0.0, MATERIAL_NONE, 0u, 0u, 0u, 0.0);
     path_states[slot] = state;

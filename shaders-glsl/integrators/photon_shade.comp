@@ -1,6 +1,7 @@
-// One step of every photon that goes on.
-// Reads: rays and surfaces of the queue, path states, scene. Writes: path states, photons, their lists, rays of the queue
-// (the next closest-hit round), film faults; selects the slots that have a ray to trace.
+// Makes one step of every photon that goes on.
+// Reads: rays and surfaces of the queue, path states, scene. Writes: path states, photons, their lists, rays
+// of the queue (the next closest-hit round), film faults; selects the slots that have a ray to trace. One
+// invocation per slot of the domain.
 // Source: docs/photons.md, "Scattering".
 #version 460
 #include "contract/extensions.glsl"

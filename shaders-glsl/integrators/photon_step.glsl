@@ -1,4 +1,4 @@
-// One step of a photon: it is stored where a rough surface is met after a scattering, and scattered.
+// One step of a photon: it is stored at a rough surface that it meets after a scattering, and is scattered.
 // Reads: materials, textures. Writes: photons, their lists.
 // Source: docs/photons.md, "Scattering"; Veach 1997, section 5.3, for shading normals.
 #ifndef INTEGRATORS_PHOTON_STEP_GLSL
@@ -7,8 +7,8 @@
 #include "integrators/path_storage.glsl"
 #include "integrators/photons.glsl"
 
-// Returns the correction for a shading normal: paths that meet one count more or less light along `i` than
-// photons that leave along it. 0 if paths from there would not see the surface lit.
+// Returns the correction of a photon's flux for a shading normal, since paths count more or less light along
+// `i` there than photons carry. It is 0 if a path that arrives along `i` would not see the surface lit.
 float shading_normal_share(Surface s, vec3 o, vec3 i) {
     float arriving = dot(s.normal, o);
     float leaving = abs(dot(s.normal, i)) * dot(s.geometric_normal, o);
@@ -16,7 +16,7 @@ float shading_normal_share(Surface s, vec3 o, vec3 i) {
     return arriving * abs(dot(s.geometric_normal, i)) / leaving;
 }
 
-// Makes one step of a photon: `ray` was traced, `s` is its hit (valid 0: none).
+// Makes one step of a photon: `ray` was traced, and `s` is the surface that it hit (valid 0: none).
 PathStep photon_step(uint slot, inout PathState state, Ray ray, Surface s) {
     PathStep asked = PathStep(ray_inactive(), ray_inactive(), vec3(0.0), vec3(0.0), 0u);
     if (s.valid == 0u) return asked;
@@ -36,7 +36,7 @@ PathStep photon_step(uint slot, inout PathState state, Ray ray, Surface s) {
         vec3 flux = state.throughput * state.radiance.x;
         photon_store((state.bounce - 1u) * wave.pixel_count + slot, Photon(s.position, 0u, -direction, state.bounce, flux));
     }
-    // A photon has to be scattered once more where it is gathered.
+    // A photon is scattered once more where it is gathered, which the limit of scatterings includes.
     if (state.bounce + 2u > wave.limit) return asked;
     vec4 random = random_vec4(state.pixel, state.sample_index, random_dimension(state.bounce, RANDOM_BSDF_LOBE));
     BsdfSample chosen = bsdf_sample(terms, s, random);

@@ -1,6 +1,6 @@
-// The camera ray of every slot of a wave, through a random point of its pixel and of the lens, or through the centres
-// of both.
-// Reads: frame. Writes: rays of the queue.
+// Makes the camera ray of every slot of a wave: through a random point of its pixel and of the lens, or
+// through the centres of both.
+// Reads: frame. Writes: rays of the queue. One invocation per slot of the domain.
 // Source: docs/shading.md, "Functions" and "Lens".
 #version 460
 #include "contract/extensions.glsl"

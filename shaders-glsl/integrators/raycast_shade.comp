@@ -1,6 +1,7 @@
-// Adds one sample of ray casting to every pixel of the wave: emission plus base colour under a
-// light at the eye, the environment where the camera ray hits nothing.
-// Reads: rays and surfaces of the queue, frame, environment. Writes: film.
+// Adds one sample of ray casting to every pixel of the wave: emission and the base colour under a light at
+// the eye, or the environment if the camera ray hits nothing.
+// Reads: rays and surfaces of the queue, frame, environment. Writes: film. One invocation per slot of the
+// domain.
 // Source: Appel 1968, with the light at the eye.
 #version 460
 #include "contract/extensions.glsl"

@@ -1,6 +1,8 @@
-// Tests whether the ray of a pixel hits a triangle, and keeps the round's part of the hit.
-// Reads: geometry, frame, rays of the queue; the scene where alpha is tested. Writes: hits of the queue, counts.
-// Source: the visibility buffer; which pixels a triangle is tested at is proposed by visibility.vert alone.
+// Tests whether the ray of a pixel hits a triangle, and keeps the part of the hit that belongs to the round.
+// Reads: geometry, frame, rays of the queue; the scene where alpha is tested. Writes: hits of the queue,
+// counts.
+// One invocation per triangle and pixel that visibility.vert proposes.
+// Source: Burns and Hunt 2013, the visibility buffer.
 #version 460
 #include "contract/extensions.glsl"
 #include "ads/evaluate.glsl"
@@ -12,12 +14,12 @@ layout(location = 0) flat in vec4 pixel_bounds;
 layout(location = 1) flat in uint primitive;
 layout(location = 2) flat in uint covering;
 
-// Returns the slot of this pixel; false if it is not of the wave.
+// Finds the slot of this pixel. Returns false if the pixel is not in the wave.
 bool fragment_slot(out uint slot) {
     uint width = scene_frame().width;
     uvec2 place = uvec2(gl_FragCoord.xy);
     uint pixel = (visibility.first_pixel / width + place.y) * width + place.x;
-    // Pixels before the first one wrap around.
+    // For pixels before the first one, the slot wraps around to a large number.
     slot = pixel - visibility.first_pixel;
     return slot < visibility.pixel_count;
 }
@@ -40,7 +42,7 @@ void main() {
     }
     Ray ray = queue_ray(slot);
     float infinity = uintBitsToFloat(0x7F800000u);
-    // Other fragments make this t smaller meanwhile, which changes no minimum.
+    // Other fragments may make this t smaller in the meantime, which does not change the minimum.
     float kept = uintBitsToFloat(min(queue_hit_words[visibility_t_word(slot)], 0x7F800000u));
     Hit best = Hit(nearest ? min(ray.t_max, kept) : ray.t_max, PRIMITIVE_NONE, 0.0, 0.0);
     float t;

@@ -1,5 +1,5 @@
-// Proposes, for each triangle, the pixels of a wave whose rays may hit it.
-// Reads: geometry, frame. Writes: nothing.
+// Proposes, for each triangle, the pixels of a wave whose rays may hit the triangle.
+// Reads: geometry, frame. Writes: nothing. Three vertices per triangle.
 // Source: the dilated triangles of ads/coverage.glsl; integrators/visibility_bounds.glsl.
 #version 460
 #include "contract/extensions.glsl"
@@ -7,7 +7,8 @@
 #include "ads/geometry.glsl"
 #include "integrators/visibility_bounds.glsl"
 
-// First corner and last, in pixels of the area drawn: no ray of a pixel outside hits the triangle.
+// First and last corner of a rectangle in the area drawn, in pixels. No ray of a pixel outside of it hits the
+// triangle.
 layout(location = 0) flat out vec4 pixel_bounds;
 layout(location = 1) flat out uint primitive;
 layout(location = 2) flat out uint covering;

@@ -1,21 +1,22 @@
-// Bounds of a triangle in the image area of a wave: the pixels whose rays may hit it.
-// Reads: push constants. Writes: nothing.
+// Finds the bounds of a triangle in the image area of a wave: the pixels whose rays may hit the triangle.
+// Reads: push constants, frame. Writes: nothing.
 // Source: none.
-// The image area that is drawn is that of the rows in which the wave has pixels. A point of it is (x/z, y/z) times half
-// of its longer side in pixels, right of and below its centre.
+// The image area that is drawn has the rows of the image in which the wave has pixels. A point of the area is
+// given as (x/z, y/z), in units of half its longer side, to the right of and below its centre.
 #ifndef INTEGRATORS_VISIBILITY_BOUNDS_GLSL
 #define INTEGRATORS_VISIBILITY_BOUNDS_GLSL
 
 #include "integrators/visibility.glsl"
 #include "scene/accessors.glsl"
 
-// Bound of the rounding of the triangle test, of camera rays, and of the values computed here, relative to
-// the largest length involved: 64 u.
+// Bound of the rounding of the triangle test, of camera rays and of the values computed here, divided by the
+// largest length involved: 64 units of rounding.
 const float ROUNDING = 3.9e-6;
 
+// Image area of a wave.
 struct Area {
-    vec2 size;            // pixels
-    float row;            // of the image: its centre, in pixels from the top
+    vec2 size;            // width and height, pixels
+    float row;            // row of the area's centre in the image, pixels from the top
     float half_side;      // half of the longer side, pixels
 };
 
@@ -27,12 +28,12 @@ Area wave_area(Frame frame) {
     return Area(size, float(first) + 0.5 * size.y, 0.5 * max(size.x, size.y));
 }
 
-// Returns the width and height in pixels of a metre at depth 1; in a parallel projection at any depth.
+// Returns how many pixels wide and high a metre is at depth 1; in a parallel projection at any depth.
 vec2 pixels_per_metre(Frame frame) {
     return vec2(0.5 * float(frame.width) / frame.half_width, 0.5 * float(frame.height) / frame.half_height);
 }
 
-// Transforms a point to the camera's position, so that (x/z, y/z) is its place in the area.
+// Transforms a point that is relative to the camera, so that (x/z, y/z) is its place in the area.
 vec3 area_from_camera(Frame frame, Area area, vec3 p) {
     vec2 pixels = vec2(dot(frame.camera_right, p), -dot(frame.camera_up, p)) * pixels_per_metre(frame);
     float z = frame.projection == PROJECTION_PERSPECTIVE ? dot(frame.camera_forward, p) : 1.0;
@@ -40,9 +41,9 @@ vec3 area_from_camera(Frame frame, Area area, vec3 p) {
     return vec3(pixels / area.half_side, z);
 }
 
-// True if all corners lie beyond a side of a rectangle of this half size around the centre, by more than
-// `rounding`. This also holds for corners behind the eye: no part of the triangle in front of the eye lies
-// within then.
+// True if all corners lie beyond one side of a rectangle around the centre, by more than `rounding`. The test
+// also holds for corners behind the eye: it is true only if no part of the triangle in front of the eye lies
+// in the rectangle.
 bool is_beyond(vec3 a, vec3 b, vec3 c, vec2 half_size, float rounding) {
     vec3 x = vec3(a.x, b.x, c.x);
     vec3 y = vec3(a.y, b.y, c.y);
@@ -52,14 +53,14 @@ bool is_beyond(vec3 a, vec3 b, vec3 c, vec2 half_size, float rounding) {
         || all(greaterThan(y - half_size.y * z, slack)) || all(greaterThan(-y - half_size.y * z, slack));
 }
 
-// Finds the bounds (lower, upper) in the area of the centres of the pixels whose rays may hit the triangle,
-// and the largest distance of such a centre from the triangle: 0 if the triangle reaches behind the eye and
-// the bounds are the whole area. False if there are no such pixels. The corners are relative to the camera;
-// `placed` are their places in the area.
+// Finds the bounds (lower, upper) in the area of the centres of all pixels whose rays may hit the triangle.
+// `margin` is the largest distance of such a centre from the triangle; it is 0 if the triangle reaches behind
+// the eye, and the bounds are then the whole area. Returns false if there are no such pixels. Corners are
+// relative to the camera; `placed` are their places in the area.
 bool propose(Frame frame, Area area, vec3 corners[3], out vec3 placed[3], out vec4 bounds, out float margin) {
     float reach = max(length(corners[0]), max(length(corners[1]), length(corners[2])));
     bool perspective = frame.projection == PROJECTION_PERSPECTIVE;
-    // Origins of parallel rays are rounded as well.
+    // The origins of parallel rays are rounded as well.
     float rounding = ROUNDING * (perspective ? reach : reach + length(frame.camera_position) + frame.half_width + frame.half_height);
     vec3 depths;
     for (int k = 0; k < 3; k++) {
@@ -81,8 +82,8 @@ bool propose(Frame frame, Area area, vec3 corners[3], out vec3 placed[3], out ve
     if (perspective && !(nearest > 1.0e-6 * reach)) {
         return true;
     }
-    // The margin is half a pixel to the sides of a pixel, and 1/16 for the hardware's grid, which has 16
-    // steps per pixel or more.
+    // The margin is half a pixel, from the centre to the sides, and 1/16 of a pixel for the hardware's
+    // sub-pixel grid, which has at least 16 steps per pixel.
     margin = (0.5 + 1.0 / 16.0) / area.half_side + rounding_placed / nearest;
     vec2 a = placed[0].xy / placed[0].z;
     vec2 b = placed[1].xy / placed[1].z;

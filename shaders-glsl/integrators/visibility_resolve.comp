@@ -1,8 +1,11 @@
-// The hit and the surface of every slot of a wave from the triangle that drawing found, as a trace would store
-// them.
-// Reads: rays of the queue, the primitives of its hits, geometry, scene. Writes: hits and surfaces of the queue.
-// Triangles are drawn through a pinhole: with a lens no ray has an answer, which is counted as not ready.
-// Source: the visibility buffer, its second pass.
+// Computes the hit and the surface of every slot of a wave from the triangle that drawing found, as a trace
+// would store them.
+// Reads: rays of the queue, the primitives of its hits, geometry, scene. Writes: hits and surfaces of the
+// queue, its count of slots not ready.
+// One invocation per pixel of the wave.
+// Source: Burns and Hunt 2013, the visibility buffer, second pass.
+// Triangles are drawn through a pinhole. If the camera has a lens, no ray gets an answer, which is counted as
+// not ready.
 #version 460
 #include "contract/extensions.glsl"
 #include "ads/geometry.glsl"

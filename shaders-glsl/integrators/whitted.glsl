@@ -1,5 +1,6 @@
-// Whitted's ray tracing, one step per closest hit: emission, one light sample, and the rays that go on from there.
-// With CUBE_MAP_LOOKUP a cube map answers mirrored and refracted rays; with CUBE_MAP_DRAWN the rays are those of its texels.
+// Whitted's ray tracing, one step per closest hit: emission, one light sample, and the rays that go on from
+// there. With CUBE_MAP_LOOKUP a cube map answers mirrored and refracted rays; with CUBE_MAP_DRAWN the rays
+// are those of the texels of a cube map.
 // Reads: scene tables through scene/*.glsl; the cube map. Writes: state and waiting rays, through
 // integrators/whitted_storage.glsl; the film's count of samples that sent a ray on.
 // Source: docs/whitted.md; Whitted 1980; docs/cube-map.md.
@@ -17,20 +18,22 @@
 // True if any surface may send more than one ray on.
 #define WHITTED_BRANCHES (SHADING_TRANSMISSION || SHADING_PASSES)
 
-// Rays that one step asks to be traced. A ray with t_max < 0 is not to be traced.
+// Rays that one step asks for. A ray with t_max < 0 is not traced.
 struct WhittedStep {
-    WhittedRay next;          // closest hit; the others wait
-    Ray shadow_ray;           // occlusion; `pending` counts if nothing is hit. Where surfaces let light pass: closest hit
-    vec3 pending;             // radiance times throughput, W/(sr m^2)
-    vec3 target;              // where a shadow ray of finite length ends
-    uint cut;                 // 1 where a ray would have passed more than PATH_LAYER_LIMIT surfaces, else 0
+    WhittedRay next;          // traced next, for its closest hit; other rays of the tree wait
+    // any hit occludes; if surfaces let light through,
+    Ray shadow_ray;           // the closest hit is found instead
+    vec3 pending;             // radiance of the unblocked shadow ray times throughput, W/(sr m^2)
+    vec3 target;              // end of a shadow ray of finite length
+    uint cut;                 // 1 if a ray would have passed more than PATH_LAYER_LIMIT surfaces, else 0
 };
 
+// True if the wave has a mark.
 bool whitted_has(uint mark) {
     return (wave.marks & mark) != 0u;
 }
 
-// Returns the surface that the ray of a slot hit; a miss if it hit none.
+// Returns the surface that the ray of a slot hit; that of a miss if it hit none.
 Surface whitted_surface(uint slot, Ray ray) {
     if (queue_surfaces[slot].valid == 0u) return surface_miss(ray);
     Surface s = queue_surface(slot);
@@ -38,18 +41,18 @@ Surface whitted_surface(uint slot, Ray ray) {
     return s;
 }
 
-// Returns the first dimension of the light sample at the hit of a ray: that of paths unless something was
-// refracted or passed.
+// Returns the first dimension of the light sample at the hit of a ray. It is that of paths, unless a
+// refraction or a passed surface led to the ray.
 uint whitted_dimension(WhittedNode node) {
     return random_dimension(node.depth, RANDOM_LIGHT_KIND) + 256u * node.branch;
 }
 
-// Returns the branch of a ray that was refracted, or else went straight on.
+// Returns the branch of a ray that was refracted, or that went straight on.
 uint whitted_branch(WhittedNode node, bool is_refracted) {
     return node.branch * 747796405u + 2891336453u + 2u * node.depth + (is_refracted ? 1u : 0u);
 }
 
-// Adds one more ray to trace: it is next, and the one before it waits.
+// Adds a ray to trace. It becomes the next one, and the ray that was next waits.
 void whitted_follow(uint slot, inout WhittedState state, inout WhittedStep asked, WhittedRay followed) {
     if (WHITTED_BRANCHES && asked.next.ray.t_max >= 0.0) whitted_push(slot, state, asked.next);
     asked.next = followed;
@@ -71,7 +74,7 @@ WhittedRay whitted_leave(WhittedNode node, Surface s, Ray ray, vec3 direction, f
     return left;
 }
 
-// Sends the ray on through a surface that lets the share `straight` pass.
+// Sends the ray on through a surface that lets the share `straight` of the light through.
 void whitted_pass(uint slot, inout WhittedState state, Ray ray, Surface s, vec3 direction, float footprint,
                   vec3 straight, inout WhittedStep asked) {
     vec3 throughput = state.node.throughput * straight;
@@ -91,8 +94,8 @@ void whitted_pass(uint slot, inout WhittedState state, Ray ray, Surface s, vec3 
     whitted_follow(slot, state, asked, through);
 }
 
-// Takes one light sample for everything but the mirrored and the refracted ray; no other technique finds that
-// light. `throughput` is that of the surface.
+// Takes one light sample for all lobes but the mirrored and the refracted ray. No other technique finds that
+// light. `throughput` is that of the ray times the opacity of the surface.
 void whitted_light(WhittedState state, uint pixel, Surface s, BsdfTerms terms, vec3 throughput,
                    inout WhittedStep asked) {
     LightSample light = light_sample(s, random_vec4(pixel, wave.sample_index, whitted_dimension(state.node)));
@@ -105,22 +108,22 @@ void whitted_light(WhittedState state, uint pixel, Surface s, BsdfTerms terms, v
     asked.target = light.target;
 }
 
-// True if the light sample of a surface is tested.
+// True if the light sample of a surface is tested by a shadow ray.
 bool whitted_casts_shadows(WhittedNode node, bool is_specular) {
     if (whitted_has(WHITTED_SHADOWS_NONE) || (whitted_has(WHITTED_SHADOWS_FIRST) && node.depth > 0u)) return false;
     return is_specular || !whitted_has(WHITTED_SHADOWS_SPECULAR);
 }
 
-// Makes one step of a tree: `ray` was traced, `s` is the surface it hit (valid 0: none). Adds emission, and
-// light that is not tested, to the state; asks for a shadow ray and the next ray, and lets the others wait:
-// of the rays of one surface the mirrored ray is traced first, then the refracted one, then the one straight
-// on.
+// Makes one step of a tree of rays: `ray` was traced, and `s` is the surface that it hit (valid 0: none).
+// Adds emission, and light that no shadow ray tests, to the state. Asks for a shadow ray and the next ray,
+// and lets the other rays wait: of the rays of one surface the mirrored one is traced first, then the
+// refracted one, then the one that goes straight on.
 WhittedStep whitted_step(uint slot, inout WhittedState state, Ray ray, Surface s) {
     Ray none = ray_inactive();
     WhittedStep asked = WhittedStep(WhittedRay(none, state.node), none, vec3(0.0), vec3(0.0), 0u);
     float speed = length(ray.direction);
     vec3 direction = ray.direction / speed;
-    // Rays of no weight are traced as well if all rays are asked for.
+    // If all rays are asked for, rays without weight are traced as well.
     bool counts = largest_component(state.node.throughput) > 0.0;
     if (s.valid == 0u) {
         if (counts) state.radiance += state.node.throughput * environment_radiance(direction);
@@ -132,7 +135,8 @@ WhittedStep whitted_step(uint slot, inout WhittedState state, Ray ray, Surface s
         state.node.throughput *= path_transmittance(state.node.medium, distance);
     }
 #ifdef CUBE_MAP_DRAWN
-    // The point lies inside what mirrors its surroundings.
+    // The point of the cube map lies inside the object that mirrors its surroundings, so rays pass that
+    // object's backs.
     if (s.side == 0u && mirror_is_smooth(s.roughness)) {
         whitted_pass(slot, state, ray, s, direction, footprint, vec3(1.0), asked);
         return asked;

@@ -1,4 +1,4 @@
-// The rays of a tree and their shadow rays in turns: the next ray of either.
+// Lets the rays of a tree and their shadow rays take turns: finds the next ray of either.
 // Reads: waiting rays, the scene. Writes: waiting rays.
 // Source: docs/whitted.md; docs/shading.md, "Straight through".
 #ifndef INTEGRATORS_WHITTED_PASSING_GLSL
@@ -6,7 +6,8 @@
 
 #include "integrators/whitted.glsl"
 
-// Returns the shadow ray of a surface that was shaded; inactive if it has none. All rays of the surface wait.
+// Shades the hit of a ray of the tree. Returns the shadow ray of the surface, which is inactive if there is
+// none. All rays that the surface sends on wait.
 Ray shade_ray(uint slot, inout WhittedState state, Ray ray, Surface surface, out uint cut) {
     WhittedStep asked = whitted_step(slot, state, ray, surface);
     cut = asked.cut;
@@ -19,7 +20,8 @@ Ray shade_ray(uint slot, inout WhittedState state, Ray ray, Surface surface, out
     return asked.shadow_ray;
 }
 
-// Returns the shadow ray behind its hit; inactive if it has ended.
+// Makes a step of a shadow ray. Returns the shadow ray behind its hit, which is inactive if the ray has
+// ended.
 Ray shade_shadow(inout WhittedState state, Ray ray, Surface surface, out uint cut) {
     PathState path = path_begin(0u, 0u);
     path.radiance = state.radiance;

@@ -1,6 +1,7 @@
-// Adds the light that was sampled in this round where the shadow ray hit nothing, and trees that have ended to their
-// pixels.
-// Reads: rays and hits of the queue, which is that of the shadow rays, and states. Writes: states, film.
+// Adds the light that was sampled in this round if the shadow ray hit nothing, and adds trees that have ended
+// to their pixels.
+// Reads: rays and hits of the queue, which is that of the shadow rays; states. Writes: states, film. One
+// invocation per slot of the domain.
 // Source: docs/whitted.md.
 #version 460
 #include "contract/extensions.glsl"

@@ -1,7 +1,9 @@
-// One step of every tree that continues. Of scenes where no surface lets light pass in a straight line;
-// whitted_shade_passing.comp is for the others.
-// Reads: rays and surfaces of the queue, states, waiting rays, scene, geometry. Writes: states, waiting rays, shadow rays,
-// film, rays of the queue (the next closest-hit round); selects the slots that have a ray to trace, in both queues.
+// Makes one step of every tree that goes on. Runs in scenes where no surface lets light through in a straight
+// line; whitted_shade_passing.comp is for other scenes.
+// Reads: rays and surfaces of the queue, states, waiting rays, scene, geometry.
+// Writes: states, waiting rays, shadow rays, film, its faults, rays of the queue (the next closest-hit
+// round); selects the slots that have a ray to trace, in both queues.
+// One invocation per slot of the domain.
 // Source: docs/whitted.md.
 #version 460
 #include "contract/extensions.glsl"
@@ -40,7 +42,7 @@ void main() {
             atomicAdd(film_faults.unended, 1u);
         }
     } else if (asked.shadow_ray.t_max >= 0.0) {
-        // whitted_resolve.comp has the last word.
+        // The tree ends in whitted_resolve.comp, when its last shadow ray is known.
         state.waiting = WHITTED_ENDED;
     } else {
         film_add(wave_pixel(slot), state.radiance);

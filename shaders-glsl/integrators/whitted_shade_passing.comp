@@ -1,12 +1,14 @@
-// One step of every tree that continues, where surfaces let light pass in a straight line. Rays and their shadow
-// rays take turns in one queue: what a surface sends on waits until its shadow ray has ended, however many surfaces that
-// passes. Where a tree ends, its radiance is added to its pixel.
-// Reads: rays and surfaces of the queue, states, waiting rays, scene, geometry. Writes: states, waiting rays, film, rays of
-// the queue (the next closest-hit round); selects the slots that have a ray to trace.
+// Makes one step of every tree that goes on, in scenes where surfaces let light through in a straight line.
+// Rays and their shadow rays take turns in one queue: the rays that a surface sends on wait until its shadow
+// ray has ended, however many surfaces that ray passes. If a tree ends, its radiance is added to its pixel.
+// Reads: rays and surfaces of the queue, states, waiting rays, scene, geometry.
+// Writes: states, waiting rays, film, its faults, rays of the queue (the next closest-hit round); selects the
+// slots that have a ray to trace.
+// One invocation per slot of the domain.
 // Source: docs/whitted.md; docs/shading.md, "Straight through".
 #version 460
 #include "contract/extensions.glsl"
-// Any surface may be a smooth thin pane.
+// True if any surface may be a smooth thin pane.
 layout(constant_id = 106) const bool WHITTED_PASSES_PANES = true;
 #define SHADING_PANES WHITTED_PASSES_PANES
 #include "ads/queue.glsl"

@@ -1,24 +1,26 @@
-// The blocks of a layered depth cube, of both levels: their number, and the depths in them.
+// Numbers the blocks of both levels of a layered depth cube, and reads and widens the depths in them.
 // Reads, writes: header, blocks.
-// Source: Bürger et al. section 1.3, minimum and maximum depth per block; slices and the second level are not
-// in the paper.
+// Source: Bürger et al. section 1.3, minimum and maximum depth per block. Slices and the second level are
+// not in the paper.
 #ifndef LDC_BLOCKS_GLSL
 #define LDC_BLOCKS_GLSL
 
 #include "ads/bucket.glsl"
 #include "ldc/accessors.glsl"
 
-// Returns the columns and rows of cells of a block of a level.
+// Returns how many columns and rows of cells a block of a level has.
 ivec2 ldc_block_cells(uint level) {
     return ivec2(LDC_BLOCK_COLUMNS, LDC_BLOCK_ROWS) * int(level == 0u ? 1u : LDC_LEVEL_BLOCKS);
 }
 
-// Returns the columns and rows of blocks of a level in a view; the last ones may reach beyond its cells.
+// Returns how many columns and rows of blocks of a level a view has. The last blocks may reach beyond the
+// cells.
 ivec2 ldc_view_blocks(uint resolution, uint level) {
     return (int(resolution) + ldc_block_cells(level) - 1) / ldc_block_cells(level);
 }
 
-// Returns the running index of a block; those of the second level follow the others.
+// Returns the running index of a block over all views. The blocks of the second level follow those of the
+// first.
 uint ldc_block(uint resolution, uint level, uint axis, ivec2 block) {
     ivec2 first = ldc_view_blocks(resolution, 0u);
     ivec2 blocks = ldc_view_blocks(resolution, level);
@@ -31,8 +33,8 @@ uint ldc_block_stride() {
     return LDC_OCCUPANCY == LDC_OCCUPANCY_SLICES ? 4u : 2u;
 }
 
-// Returns the bits of the slices from that of z_low to that of z_high. The slice of a depth is monotone, so
-// that the bits cover all depths between.
+// Returns the bits of the slices from that of z_low to that of z_high. The slice of a depth is a monotone
+// function of the depth, so the bits cover all depths in between.
 uvec2 ldc_slices(float slices_per_metre, float z_low, float z_high) {
     int first = int(bucket_of(z_low, 0.0, slices_per_metre, LDC_SLICES));
     int last = int(bucket_of(z_high, 0.0, slices_per_metre, LDC_SLICES));
@@ -47,9 +49,9 @@ uvec2 ldc_slices(float slices_per_metre, float z_low, float z_high) {
     return bits;
 }
 
-// Widens the depths of the blocks of a cell. Word 0 holds the complement of the smallest depth's bits, so
-// that a cleared block is empty and both ends are maxima; depths are not negative, and order like their bits.
-// Words only grow, and for most fragments they are large enough already: reading first saves atomics.
+// Widens the depths of the blocks that contain a cell. Word 0 holds the complement of the smallest depth's
+// bits, so that a cleared block is empty and atomicMax widens both ends: depths are not negative and order
+// like their bits. Each word is read first, since most fragments change none and need no atomic operation.
 void ldc_widen_blocks(LdcRef s, uint axis, ivec2 cell, float z_low, float z_high) {
     uvec2 ends = uvec2(~floatBitsToUint(z_low), floatBitsToUint(z_high));
     uint resolution = LDC_HEADER(s).resolution;
@@ -68,6 +70,7 @@ void ldc_widen_blocks(LdcRef s, uint axis, ivec2 cell, float z_low, float z_high
     }
 }
 
+// Returns the depths of a block.
 LdcBlock ldc_block_depths(LdcRef s, uint block) {
     uint word = ldc_block_stride() * block;
     uint low = LDC_POOL(s, blocks)[word];

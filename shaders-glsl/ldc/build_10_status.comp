@@ -1,5 +1,5 @@
-// Declares the structure complete, or says what was missing.
-// Reads: header. Writes: header.status.
+// Writes the status of the build: complete, or overflowed, and whether some lists are too long to be sorted.
+// Reads: header, geometry. Writes: header.status. One invocation.
 #version 460
 #include "contract/extensions.glsl"
 #include "ads/build_status.glsl"

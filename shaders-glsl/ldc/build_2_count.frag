@@ -1,6 +1,8 @@
-// Length of each cell's list; with peeling, the number of layers, and in a second draw the words of lists are
-// advanced from their first place to their end.
-// Reads: geometry, header. Writes: lists; scratch, header.layer_demand, header.beyond.
+// Counts the fragments in the list of each cell. With peeling, the first draw of the pass also counts layers,
+// and a second draw after the peeling advances the word of each list from its first place to its end.
+// Reads: geometry, header, with ALPHA_SCENE the scene. Writes: lists, scratch, header.layer_demand,
+// header.beyond.
+// One invocation per triangle and cell that build_raster.vert proposes.
 // Source: Bürger et al. section 1.2, where the maximum length is the number of layers to peel.
 #version 460
 #include "contract/extensions.glsl"

@@ -1,5 +1,7 @@
-// Stores each fragment: depth and triangle, in the list of its cell; and widens its blocks' depths.
-// Reads: geometry, header. Writes: lists, depths, payload, blocks.
+// Stores depth and triangle of each fragment in the list of its cell, and widens the depths of the cell's
+// blocks.
+// Reads: geometry, header, with ALPHA_SCENE the scene. Writes: lists, depths, payload, blocks.
+// One invocation per triangle and cell that build_raster.vert proposes.
 // Source: Bürger et al. sections 1.2 and 1.3: all layers in one pass instead of one per layer.
 #version 460
 #include "contract/extensions.glsl"

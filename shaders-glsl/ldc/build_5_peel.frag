@@ -1,7 +1,11 @@
-// Peels a layer: step 2 k finds the smallest depth of each cell behind its layer k - 1, step 2 k + 1 the lowest
-// triangle at that depth. The word of a list is its first place; it becomes its end when all layers are peeled.
-// Reads: geometry, header, lists. Writes: depths, payload, blocks.
-// Source: Bürger et al. section 1.2, depth peeling; triangles tell equal depths apart, so that none is lost.
+// Peels a layer. Step 2 k of the pass finds the smallest depth in each cell behind the cell's layer k - 1,
+// and step 2 k + 1 finds the lowest triangle at that depth.
+// Reads: geometry, header, lists, with ALPHA_SCENE the scene. Writes: depths, payload, blocks.
+// One invocation per triangle and cell that build_raster.vert proposes.
+// Source: Bürger et al. section 1.2, depth peeling. Triangles tell equal depths apart, so that no fragment
+// is lost.
+// The word of a list is the list's first place here. Once all layers are peeled, it becomes the list's end
+// (build_2_count.frag).
 #version 460
 #include "contract/extensions.glsl"
 #include "ldc/visit.glsl"

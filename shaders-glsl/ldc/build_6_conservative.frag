@@ -1,5 +1,8 @@
-// Keeps triangles in cells that they reach into without covering their centre. Conservative coverage only.
-// Reads: geometry, header, lists, depths, payload. Writes: heads, conservative lists, blocks, header.conservative_demand.
+// Puts triangles into the conservative lists of cells that they reach into without covering the centre. Runs
+// with conservative coverage only.
+// Reads: geometry, header, lists, depths, payload. Writes: heads, conservative lists, blocks,
+// header.conservative_demand.
+// One invocation per triangle and cell that build_raster.vert proposes.
 // Source: not in the paper, in which rays pass between the cells of the views there.
 #version 460
 #include "contract/extensions.glsl"

@@ -1,9 +1,10 @@
-// Replaces the triangle of each fragment by colour and normal, as seen along the triangle's
-// normal. Sorting, peeling and conservative lists need triangles, so it comes last. Payload attributes only.
-// Normals of a cube in a space of its own are turned to there from where the scene is posed. Where there is no map fragments
-// keep their triangles, as those that emit do.
-// Reads: geometry, header, lists, payload, the scene. Writes: payload.
+// Replaces the triangle of each fragment by colour and normal of its surface. Runs with payload attributes
+// only, and after sorting, peeling and conservative lists, which need triangles.
+// Reads: geometry, header, lists, payload, the scene. Writes: payload. One invocation per place.
 // Source: Bürger et al. section 1.2.1, where a second target of each layer holds colour and texture.
+// A cube may be in a space of its own, away from where the scene is posed. The pass then turns normals from
+// the posed scene into that space. If there is no map between the two, fragments keep their triangles, as
+// fragments that emit always do.
 #version 460
 #include "contract/extensions.glsl"
 #include "ads/rigid.glsl"
@@ -13,6 +14,7 @@
 
 layout(local_size_x = BUILD_GROUP_SIZE) in;
 
+// Returns the place behind the last one of a list.
 uint list_end(uint list) {
     return LDC_POOL(build.structure, lists)[list];
 }
@@ -20,7 +22,7 @@ uint list_end(uint list) {
 #include "ads/list_of_place.glsl"
 #include "ads/build_invocation.glsl"
 
-// Returns colour and normal of a triangle that was moved to a space of its own.
+// Returns colour and normal of a triangle whose corners are in the space of the cube.
 uvec2 rigid_attributes(uint primitive, vec2 barycentrics) {
     GeometryRigid map = rigid_map();
     vec3 a;
@@ -30,7 +32,7 @@ uvec2 rigid_attributes(uint primitive, vec2 barycentrics) {
     if (isinf(map.error)) {
         return stored_pack_triangle(stored_source_at(primitive, barycentrics, a, b, c));
     }
-    // The map is scaled to unit size, which keeps determinants within range.
+    // The map is scaled to unit size, so that its determinant stays within range.
     mat3 posed_from_built = inverse(mat3(map.x, map.y, map.z) / map.stretch);
     float grown = 1.0 / map.stretch;
     a = posed_from_built * (grown * (a - map.offset)) + map.centre;

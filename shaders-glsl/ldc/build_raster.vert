@@ -1,8 +1,9 @@
-// Proposes, for each triangle, the cells of its view whose centres it may cover, with CONSERVATIVE those that it may
-// reach into.
-// Reads: geometry, header. Writes: nothing.
-// Source: Bürger et al. section 1.2.1; the vertex stage chooses the view instead of a geometry shader. With three passes an
-// instance is a view, and the triangles of the others are left out.
+// Proposes, for each triangle, the cells of its view whose centres the triangle may cover; with CONSERVATIVE,
+// the cells that it may reach into.
+// Reads: geometry, header. Writes: nothing. Three vertices per triangle. One instance, or with LDC_PASSES = 3
+// one per view.
+// Source: Bürger et al. section 1.2.1. The vertex stage chooses the view instead of a geometry shader. With
+// three instances, each leaves out the triangles that face other views most.
 #version 460
 #include "contract/extensions.glsl"
 #define STRUCTURE_READ_ONLY
@@ -26,7 +27,8 @@ void main() {
     }
     ldc_view_vertices(view, primitive, a, b, c);
 #ifdef CONSERVATIVE
-    // The margin is half a cell to its sides, and 1/32 for the hardware's grid.
+    // The margin is half a cell, from the centre to the sides, and 1/32 of a cell for the hardware's
+    // sub-pixel grid.
     gl_Position = axis_proposal(view, a, b, c, corner, 0.5 + 1.0 / 32.0 + LDC_REACH_MORE);
 #else
     if (LDC_COVERAGE == LDC_COVERAGE_HARDWARE) {

@@ -1,4 +1,5 @@
-// The conservative lists of the cells of a layered depth cube: where they are.
+// Finds the conservative lists of the cells of a layered depth cube, for the functions of
+// ads/conservative.glsl.
 // Reads, writes: heads, conservative lists, header.conservative_demand, header.corrupted.
 // Source: not in the paper; see ads/conservative.glsl.
 #ifndef LDC_CONSERVATIVE_GLSL
@@ -6,8 +7,8 @@
 
 #include "ldc/accessors.glsl"
 
-// Returns the first link of a cell's conservative list. If rays are tested against triangles, the other list
-// holds all triangles that reach into the cell.
+// Returns the first link of a cell's conservative list; 0 if the cell has none. If rays test triangles there
+// are no such lists, because the list of fragments holds all triangles that reach into the cell.
 uint ldc_conservative_head(LdcRef s, uint cell) {
     bool kept = LDC_COVERAGE == LDC_COVERAGE_CONSERVATIVE && LDC_ACCEPT != LDC_ACCEPT_TRIANGLE;
     return kept ? LDC_POOL(s, heads)[cell] : 0u;

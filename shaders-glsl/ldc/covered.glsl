@@ -1,6 +1,7 @@
-// Cells that keep a triangle in the view it faces most, and its depths there, the same for every builder.
+// Decides which cells keep a triangle in the view that it faces most, and finds its depths there; the same
+// for every builder.
 // Reads: geometry, header, with ALPHA_SCENE the scene. Writes: nothing.
-// Where the rasterizer draws, without attachments, no layers are needed: the view travels as a varying.
+// Draws have no attachments and so no layers: the view is a varying.
 #ifndef LDC_COVERED_GLSL
 #define LDC_COVERED_GLSL
 
@@ -12,6 +13,7 @@
 #include "ldc/names.glsl"
 #include "ads/build_constants.glsl"
 
+// Returns the view along an axis of the cube that is being built.
 AxisView ldc_built_view(uint axis) {
     return AxisView(LDC_HEADER(build.structure).origin, LDC_HEADER(build.structure).cell,
         LDC_HEADER(build.structure).resolution, axis);
@@ -25,14 +27,14 @@ void ldc_view_vertices(AxisView view, uint primitive, out vec3 a, out vec3 b, ou
     c = axis_from_world(view, c);
 }
 
-// Returns the cell of a fragment invocation: the viewport has a border of one.
+// Returns the cell of a fragment invocation. The viewport has a border of one cell.
 ivec2 ldc_cell_at(vec4 frag_coord) {
     return ivec2(frag_coord.xy) - 1;
 }
 
-// Finds depth and barycentrics of a triangle at a cell's centre; false if it gets no fragment there. If rays
-// are tested against triangles, every cell that a triangle reaches into gets a fragment, with the word of the
-// triangle's depths in the cell (ads/reached.glsl).
+// Finds depth and barycentrics of a triangle at a cell's centre. Returns false if the triangle has no
+// fragment in the cell. If rays test triangles, a triangle has a fragment in every cell that it reaches into,
+// and the depth is a word that says which depths the triangle has in the cell (ads/reached.glsl).
 bool ldc_fragment(AxisView view, uint primitive, ivec2 cell, out float z, out vec2 barycentrics) {
     if (!axis_has_cell(view.resolution, cell)) {
         return false;
@@ -63,8 +65,8 @@ bool ldc_fragment(AxisView view, uint primitive, ivec2 cell, out float z, out ve
     return covers;
 }
 
-// True if a cell keeps a fragment at its centre: if rays are tested against triangles, masks are evaluated at
-// the hit.
+// True if a cell keeps the fragment of a triangle at these barycentrics. If rays test triangles, alpha masks
+// are evaluated at the hit instead of here.
 bool ldc_keeps(uint primitive, vec2 barycentrics) {
     return LDC_ACCEPT == LDC_ACCEPT_TRIANGLE || alpha_accepts(primitive, barycentrics);
 }

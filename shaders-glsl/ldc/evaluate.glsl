@@ -1,6 +1,7 @@
-// Fragments and triangles of a cell against a ray: how far they may lie from it, and whether they are hit.
-// Reads: payload, depths, geometry. Writes: nothing.
-// Source: Bürger et al. section 1.4. The nearest along the ray is taken, whichever layer it is.
+// Tests the fragments and triangles of a cell against a ray: how far from the ray's depths they may lie, and
+// whether the ray hits them.
+// Reads: header, payload, depths, geometry. Writes: header.corrupted.
+// Source: Bürger et al. section 1.4. The hit nearest along the ray is taken, whichever layer it is in.
 #ifndef LDC_EVALUATE_GLSL
 #define LDC_EVALUATE_GLSL
 
@@ -13,53 +14,57 @@
 #include "ads/rigid.glsl"
 #endif
 
-// Sizes of the header that every step needs, read once.
+// Sizes from the header that every step of a ray needs; they are read once.
 struct LdcSizes {
     uint resolution;      // cells along a side
-    uint places;          // that hold fragments
+    uint places;          // places that hold fragments
     float cell;           // metres: side of a cell
     float slices_per_metre;
     float margin;         // metres: see ldc_margin
-    float slack;          // t by which a fragment can be hit before or behind its segment
+    float slack;          // range of t before and behind its segment in which a ray hits a fragment
 };
 
-// Search of a cell, which can stop between two entries.
+// State of the search of a cell. The search can pause between two entries.
 struct LdcSearch {
     LdcSizes sizes;
     uint axis;
     ivec2 cell;
-    float t_low;          // the ray's segment in the cell, widened by its rounding
+    float t_low;          // the ray's t interval in the cell, widened by its rounding
     float t_high;
-    vec3 direction;       // of the ray where the cube was built
-    float z_origin;       // metres from the view's near side
+    vec3 direction;       // of the ray, in the space in which the cube was built
+    float z_origin;       // depth of the ray's origin in the view, metres
     float z_direction;
+    // true if the list of fragments has been begun
     bool begun;
+    // true if the conservative list has been begun
     bool in_conservative;
-    uint place;           // of the next fragment, or link of the next node of the conservative list
+    uint place;           // place of the next fragment, or link of the conservative list's next node
 };
 
-// Returns the maximum distance from the ray's depths in a cell to those of a fragment that it hits there.
+// Returns the largest distance, in depth, between a ray in a cell and a fragment that it hits there, metres.
 float ldc_margin(LdcRef s) {
     if (LDC_ACCEPT == LDC_ACCEPT_TOLERANCE) {
         return LDC_HEADER(s).tolerance;
     }
-    // Planes and triangles rise by at most one cell per cell. The ray may hit a plane before or behind its segment.
+    // Planes and triangles rise by at most one cell per cell. The ray may hit a plane before or behind its
+    // segment.
     float slack = LDC_ACCEPT == LDC_ACCEPT_PLANE ? 3.0 * LDC_PLANE_SLACK
         : (LDC_ACCEPT == LDC_ACCEPT_TRIANGLE ? AXIS_DEPTH_SLACK : 0.0);
     return (1.001 + slack) * LDC_HEADER(s).cell + 2.0 * ldc_depth_rounding(s);
 }
 
-// Returns the range of t before and behind its segment in which a fragment can be hit.
+// Returns the range of t before and behind its segment in a cell in which a ray can hit a fragment.
 float ldc_slack(LdcRef s, Ray ray) {
     return LDC_ACCEPT == LDC_ACCEPT_PLANE ? LDC_PLANE_SLACK * LDC_HEADER(s).cell / length(ray.direction) : 0.0;
 }
 
+// Returns the sizes that a ray needs.
 LdcSizes ldc_sizes(LdcRef s, Ray ray) {
     return LdcSizes(LDC_HEADER(s).resolution, ldc_places(s), LDC_HEADER(s).cell, LDC_HEADER(s).slices_per_metre,
         ldc_margin(s), ldc_slack(s, ray));
 }
 
-// Returns the depths that the ray has between two t, widened by their rounding.
+// Returns the smallest and the largest depth of a ray between two t, widened by their rounding.
 vec2 ldc_depths_between(float z_origin, float z_direction, float t_low, float t_high) {
     float z_in = z_origin + t_low * z_direction;
     float z_out = z_origin + t_high * z_direction;
@@ -67,7 +72,7 @@ vec2 ldc_depths_between(float z_origin, float z_direction, float t_low, float t_
     return vec2(min(z_in, z_out) - rounding, max(z_in, z_out) + rounding);
 }
 
-// Tests the plane of a fragment's triangle, logs the test, and replaces the best hit if the plane is
+// Tests the plane of a fragment's triangle. Logs the test, and replaces the best hit if the plane is
 // accepted.
 void ldc_test_plane(LdcRef s, Ray ray, LdcSearch search, uint primitive, inout TraceState state) {
     float t;
@@ -79,7 +84,7 @@ void ldc_test_plane(LdcRef s, Ray ray, LdcSearch search, uint primitive, inout T
     float slack = search.sizes.slack;
     uint verdict = evaluate_plane(PlaneCell(vec3(0.0), 0.0, cell, LDC_PLANE_REACH, false), ray, rival, primitive,
         search.t_low - slack, search.t_high + slack, t, barycentrics, t_error);
-    // A surface that the ray leaves is hit close to its origin, if at all.
+    // A surface that the ray leaves is hit close to the ray's origin, if at all.
     if (verdict == TEST_LEAVING && t * length(ray.direction) > LDC_LEAVING * cell) {
         verdict = t < ray.t_max ? (hit_is_better(rival, t, primitive) ? TEST_ACCEPTED : TEST_NOT_BETTER) : TEST_BEYOND;
     }
@@ -93,7 +98,7 @@ void ldc_test_plane(LdcRef s, Ray ray, LdcSearch search, uint primitive, inout T
     }
 }
 
-// Returns the corners of a triangle where the cube was built.
+// Returns the corners of a triangle in the space in which the cube was built.
 void ldc_built_corners(uint primitive, out vec3 a, out vec3 b, out vec3 c) {
     geometry_vertices(primitive, a, b, c);
 #ifdef RIGID
@@ -104,8 +109,8 @@ void ldc_built_corners(uint primitive, out vec3 a, out vec3 b, out vec3 c) {
 #endif
 }
 
-// Returns the largest distance of a fragment from the ray, by its triangle's own slope: its rise over half a
-// cell, but no less than two units in the last place of its depth.
+// Returns the largest distance, in depth, at which a ray hits a fragment by the slope of its triangle: the
+// rise of the triangle over half a cell, but at least two units in the last place of the depth.
 float ldc_slope_tolerance(LdcRef s, LdcSearch search, uint primitive, float z) {
     vec3 a;
     vec3 b;
@@ -117,8 +122,9 @@ float ldc_slope_tolerance(LdcRef s, LdcSearch search, uint primitive, float z) {
     return max(min(rise, 1.0) * search.sizes.cell, 2.0 * last_place);
 }
 
-// True if a fragment without an id replaces a best hit at the same distance: never a hit on a triangle, and
-// of two fragments the one with the lower words wins, so that the answer does not depend on their places.
+// True if a fragment without a triangle's id replaces a best hit that is as near. It never replaces a hit on
+// a triangle. Of two such fragments the one with the lower words wins, so that the answer does not depend on
+// their places.
 bool ldc_replaces_as_near(LdcRef s, Hit best, uint place) {
     if (best.primitive != PRIMITIVE_UNKNOWN) {
         return false;
@@ -128,8 +134,8 @@ bool ldc_replaces_as_near(LdcRef s, Hit best, uint place) {
     return words.x < held.x || (words.x == held.x && words.y < held.y);
 }
 
-// True if a fragment at this depth that the ray passes at t is next to the end of the ray, as close as
-// fragments of the surface there may be.
+// True if a fragment at depth z, which the ray has at t, is as close to the end of the ray as fragments of
+// the surface on which the ray ends may be. Such fragments do not count with ENDS_CLEAR.
 bool ldc_is_at_end(LdcRef s, Ray ray, LdcSearch search, float z, float t) {
     if (LDC_ENDS == ENDS_TOUCHING || !(ray.t_max < 3.0e38)) {
         return false;
@@ -139,15 +145,16 @@ bool ldc_is_at_end(LdcRef s, Ray ray, LdcSearch search, float z, float t) {
     return abs(z - z_end) <= reach && (ray.t_max - t) * length(search.direction) <= LDC_ENDING * reach;
 }
 
-// True if the ray passes a fragment that keeps its normal, because it meets the back. The normal is that of
-// the space in which the cube was built.
+// True if a ray passes through a fragment that stores its normal, because it meets the fragment's back. The
+// normal is in the space in which the cube was built.
 bool ldc_is_passed(LdcRef s, Ray ray, LdcSearch search, uint place) {
     uvec2 words = ldc_attributes(s, place);
     ray.direction = stored_emits(words) ? ray.direction : search.direction;
     return stored_is_passed(ray, words);
 }
 
-// Tests a fragment by its depth: the hit is where the ray has that depth, within the cell.
+// Tests a fragment by its depth z. The hit is where the ray has that depth, but within the ray's segment in
+// the cell.
 void ldc_evaluate_depth(LdcRef s, Ray ray, LdcSearch search, vec2 depths, uint place, float z, inout TraceState state) {
     bool known = LDC_PAYLOAD == LDC_PAYLOAD_INDEX;
     uint primitive = known ? ldc_primitive(s, place) : PRIMITIVE_UNKNOWN;
@@ -156,7 +163,7 @@ void ldc_evaluate_depth(LdcRef s, Ray ray, LdcSearch search, vec2 depths, uint p
     float t = search.z_direction == 0.0 ? search.t_low
         : clamp((z - search.z_origin) / search.z_direction, search.t_low, search.t_high);
     bool near = z >= depths.x - tolerance && z <= depths.y + tolerance;
-    // A fragment without an id cannot be the triangle that is excluded.
+    // A fragment without an id cannot be the triangle that the ray excludes.
     uint verdict = known && primitive == ray.exclude_primitive ? TEST_EXCLUDED : (!near ? TEST_OUTSIDE_CELL
         : (!(t > ray.t_min) ? TEST_BEFORE
         : (!(t < ray.t_max) || ldc_is_at_end(s, ray, search, z, t) ? TEST_BEYOND

@@ -1,4 +1,4 @@
-// Places the cube of a layered depth cube over the bounds of the geometry.
+// Places a layered depth cube over the bounds of the geometry.
 // Reads, writes: header.
 // Source: none; docs/systems/ldc.md.
 #ifndef LDC_FROM_BOUNDS_GLSL
@@ -7,10 +7,11 @@
 #include "ads/placement.glsl"
 #include "ldc/header.glsl"
 
+// Sets what depends on the bounds, whose corners are in metres relative to the frame origin.
 void ldc_from_bounds(LdcRef s, vec3 lower, vec3 upper) {
-    // The margin covers the rounding of differences to corner and ray.
+    // The margin covers the rounding of positions that are made relative to the cube.
     precise float rounding = LDC_ROUNDING * box_reach(lower, upper);
-    // If all geometry is one point its cells still have a size.
+    // If the whole geometry is one point, cells still have a size.
     precise float size = max(largest_axis(upper - lower) + 4.0 * rounding, PLACEMENT_SMALLEST);
     precise float cell = size / float(LDC_HEADER(s).resolution);
     LDC_HEADER(s).size = size;

@@ -1,5 +1,5 @@
-// The header of a layered depth cube.
-// Reads, writes: header; stages with STRUCTURE_READ_ONLY only read it.
+// Declares the header of a layered depth cube, and the macro that reaches it.
+// Reads, writes: header. Stages that define STRUCTURE_READ_ONLY only read it.
 #ifndef LDC_HEADER_GLSL
 #define LDC_HEADER_GLSL
 

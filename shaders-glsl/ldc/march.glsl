@@ -1,46 +1,50 @@
-// Traverses the squares of a flat grid that a ray crosses, column by column along its major axis.
+// Traverses the squares of a flat grid that a ray crosses, column by column along the ray's major axis.
 // Reads, writes: nothing.
-// Source: Bürger et al. section 1.4, DDA over pixels; in closed form. Which rows of a column are crossed
-// follows from the column alone, so a traversal can go on anywhere. The visited squares are a superset of the
-// exact ones.
+// Source: Bürger et al. section 1.4, DDA over pixels; here in closed form.
+// Which rows of a column are crossed follows from the column alone, so a traversal can resume at any square.
+// The visited squares are a superset of those that are crossed exactly.
 #ifndef LDC_MARCH_GLSL
 #define LDC_MARCH_GLSL
 
-// LDC_SHIFTED: a value and what the shift of a rigid draw's ray adds to it; nothing for other rays.
+// LDC_SHIFTED(value, shift) widens a value by a shift, if rounding may have shifted the ray (RIGID).
 #ifdef RIGID
-// Largest shift of the ray by rounding, in cells: squares within this distance of the ray are crossed, too.
+// Largest shift of the ray by rounding, in cells. Squares within this distance of the ray are visited, too.
 float ldc_spread = 0.0;
 #define LDC_SHIFTED(value, shift) ((value) + (shift))
 #else
 #define LDC_SHIFTED(value, shift) (value)
 #endif
 
-// Ray over a view, in units of cells.
+// A ray over a view, in units of cells. Columns are along the ray's major axis.
 struct LdcFlatRay {
-    bool turned;          // columns are along the second side
-    vec2 origin;          // along columns, along rows
+    bool turned;          // true if columns are along the second side of the view
+    vec2 origin;          // along columns, then along rows
     vec2 direction;
-    float inverse;        // 1 / direction.x, zero where that is not finite
+    float inverse;        // 1 / direction.x, or zero if that is not finite
+    // direction of steps, -1 or 1, along columns and along rows
     ivec2 step;
 };
 
-// Area of a traversal: its squares along columns and along rows.
+// Area of a traversal, in squares along columns and along rows.
 struct LdcArea {
-    vec2 width;           // of a square, cells
+    vec2 width;           // of a square, in cells
     ivec2 first;
     ivec2 last;
 };
 
-// Traversal of an area. If a column has no row within the area, `rows` is not positive.
+// Traversal of an area. In a column without a row in the area, `rows` is not positive.
 struct LdcMarch {
+    // squares to traverse
     LdcArea area;
-    vec2 t;               // the part of the ray that is traversed
+    vec2 t;               // t interval of the ray that is traversed
     int column;
     int row;
-    int columns;          // how many are left, with this one
+    int columns;          // columns that are left, with the current one
+    // rows that are left in the current column, with the current one
     int rows;
 };
 
+// Returns a ray over a view from its origin and direction along the sides of the view, in cells.
 LdcFlatRay ldc_flat_ray(vec2 origin, vec2 direction) {
     LdcFlatRay ray;
     ray.turned = abs(direction.y) > abs(direction.x);
@@ -53,26 +57,26 @@ LdcFlatRay ldc_flat_ray(vec2 origin, vec2 direction) {
     return ray;
 }
 
-// Returns the area from one square to another.
+// Returns the area from one square to another one.
 LdcArea ldc_area(LdcFlatRay ray, vec2 width, ivec2 first, ivec2 last) {
     return LdcArea(ray.turned ? width.yx : width, ray.turned ? first.yx : first, ray.turned ? last.yx : last);
 }
 
-// Returns the first and last square along a side (0: columns, 1: rows) that the ray touches between two t,
-// within rounding.
+// Returns the first and the last square along a side (0: columns, 1: rows) that the ray touches, within
+// rounding, in a t interval.
 ivec2 ldc_touched(LdcFlatRay ray, LdcArea area, int side, vec2 t) {
     float origin = ray.origin[side];
     vec2 moved = ray.direction[side] == 0.0 ? vec2(0.0) : t * ray.direction[side];
     float rounding = 16.0 * FLOAT_ROUNDING * (abs(origin) + max(abs(moved.x), abs(moved.y)));
     float guard = LDC_SHIFTED(rounding, ldc_spread);
     vec2 ends = vec2(origin + min(moved.x, moved.y) - guard, origin + max(moved.x, moved.y) + guard) / area.width[side];
-    // The values are clamped as floats, because a value that does not fit into an integer cannot be
-    // converted.
+    // The values are clamped as floats, because the conversion of a float that no integer can hold is
+    // undefined.
     ivec2 squares = ivec2(floor(clamp(ends, vec2(-1.0), vec2(float(area.last[side] + 1)))));
     return ivec2(max(squares.x, area.first[side]), min(squares.y, area.last[side]));
 }
 
-// Finds the rows of the traversal's column.
+// Finds the rows of the column at which a traversal is.
 void ldc_enter_column(LdcFlatRay ray, inout LdcMarch march) {
     vec2 t = march.t;
     if (ray.inverse != 0.0) {
@@ -87,7 +91,7 @@ void ldc_enter_column(LdcFlatRay ray, inout LdcMarch march) {
     march.rows = rows.y - rows.x + 1;
 }
 
-// Starts a traversal over [t.x, t.y]; false if the ray does not cross the area.
+// Starts a traversal over the t interval [t.x, t.y]. Returns false if the ray does not cross the area.
 bool ldc_march_begin(LdcFlatRay ray, LdcArea area, vec2 t, out LdcMarch march) {
     march.area = area;
     march.t = t;
@@ -103,6 +107,7 @@ bool ldc_march_begin(LdcFlatRay ray, LdcArea area, vec2 t, out LdcMarch march) {
     return true;
 }
 
+// Goes to the next square. Returns false at the end.
 bool ldc_march_next(LdcFlatRay ray, inout LdcMarch march) {
     march.rows--;
     march.row += ray.step.y;
@@ -118,12 +123,13 @@ bool ldc_march_next(LdcFlatRay ray, inout LdcMarch march) {
     return true;
 }
 
-// Returns the square that a traversal is at. A column without rows may be at row -1, or one past the last.
+// Returns the square at which a traversal is. In a column without rows this may be row -1, or the row behind
+// the last.
 ivec2 ldc_march_square(LdcFlatRay ray, LdcMarch march) {
     return ray.turned ? ivec2(march.row, march.column) : ivec2(march.column, march.row);
 }
 
-// Moves a traversal that has begun to the square at which another one of the same ray was.
+// Moves a traversal that has begun to a square of an earlier traversal of the same ray.
 void ldc_march_resume(LdcFlatRay ray, ivec2 square, inout LdcMarch march) {
     ivec2 place = ray.turned ? square.yx : square;
     march.columns -= abs(place.x - march.column);

@@ -1,4 +1,5 @@
-// The numbers that the scan of lists runs over: lengths become places, their sum the demand.
+// Defines the numbers over which the scan of lists runs (ads/scan.glsl): lengths become places, and the sum
+// of all lengths becomes the demand.
 // Reads, writes: lists, scratch, header.demand.
 #ifndef LDC_SCANNED_GLSL
 #define LDC_SCANNED_GLSL
@@ -9,7 +10,8 @@ uint scan_count(LdcRef s, uint step) {
     return ldc_cell_count(s);
 }
 
-// Returns an aligned length. Places are aligned already, so that aligning them again changes nothing.
+// Returns the aligned length of a list. After the scan the word is a place, which is aligned already and
+// stays unchanged.
 uint scan_number(LdcRef s, uint step, uint i) {
     return ldc_aligned(LDC_POOL(s, lists)[i]);
 }

@@ -1,16 +1,17 @@
-// Searches one cell for the nearest fragment that a ray hits within it.
+// Searches one cell for the nearest fragment that a ray hits within the cell.
 // Reads: lists, depths, payload, heads, conservative lists, geometry. Writes: header.corrupted.
-// Source: Bürger et al. section 1.4. The order of a list only skips fragments that the acceptance would
-// refuse, so hits do not depend on it. The nearest along the ray is taken, whichever layer it is.
+// Source: Bürger et al. section 1.4. The hit nearest along the ray is taken, whichever layer it is in.
+// The order of a list only leaves out fragments that the acceptance would refuse, so hits do not depend on
+// it.
 #ifndef LDC_SEARCH_GLSL
 #define LDC_SEARCH_GLSL
 
 #include "ldc/evaluate.glsl"
 
-// Least length of a list that is entered by bisection.
+// Least length of a list in which the first fragment is found by bisection.
 #define LDC_BISECTION_LENGTH 8u
 
-// Reads the depth of a fragment.
+// Returns the depth of a fragment. The read is counted and logged as the read of a list entry.
 float ldc_read(LdcRef s, uint place, inout TraceState state, inout uint work) {
     float z = ldc_depth(s, place);
     work++;
@@ -19,12 +20,12 @@ float ldc_read(LdcRef s, uint place, inout TraceState state, inout uint work) {
     return z;
 }
 
-// True if a stored depth is that of a triangle that the ray may hit at any depth.
+// True if a stored depth is that of a triangle that rays may hit at any depth.
 bool ldc_is_anywhere(float z) {
     return LDC_ACCEPT == LDC_ACCEPT_TRIANGLE && z == REACHED_ANY_DEPTH;
 }
 
-// Returns the first place of a sorted list whose depth is not less than z.
+// Returns the first place of a sorted list whose depth is z or more; the list's end if there is none.
 uint ldc_first_from(LdcRef s, uvec2 list, float z, inout TraceState state, inout uint work) {
     uint begin = list.x;
     uint end = list.y;
@@ -39,7 +40,7 @@ uint ldc_first_from(LdcRef s, uvec2 list, float z, inout TraceState state, inout
     return begin;
 }
 
-// Searches the nodes of the conservative list; true if the work budget ended first.
+// Searches the nodes of the conservative list. Returns true if the work budget ended before the list.
 bool ldc_search_conservative(LdcRef s, Ray ray, inout LdcSearch search, inout TraceState state, inout uint work) {
     vec2 depths = ldc_depths_between(search.z_origin, search.z_direction, search.t_low, search.t_high);
     float margin = search.sizes.margin;
@@ -72,13 +73,14 @@ bool ldc_search_conservative(LdcRef s, Ray ray, inout LdcSearch search, inout Tr
     }
 }
 
-// Returns how much nearer than the margin a fragment must be to the ray's depths: words of 32 bits hold the
-// reach of a triangle.
+// Returns how much closer than the margin the ray's depths must be to a fragment. A depth of 32 bits says how
+// far the triangle reaches from it.
 float ldc_margin_less(LdcSearch search, float z) {
     return LDC_ACCEPT == LDC_ACCEPT_TRIANGLE && LDC_DEPTH_BITS == 32u ? search.sizes.cell * reached_less(z) : 0.0;
 }
 
-// Searches a cell; true if the work budget ended first.
+// Searches the current cell. `ordered` says that lists are sorted. Returns true if the work budget ended
+// before the search.
 bool ldc_search(LdcRef s, Ray ray, bool ordered, inout LdcSearch search, inout TraceState state, inout uint work) {
     uint cell = axis_cell_index(search.axis, search.cell, search.sizes.resolution);
     if (!search.in_conservative) {
@@ -90,7 +92,8 @@ bool ldc_search(LdcRef s, Ray ray, bool ordered, inout LdcSearch search, inout T
             search.begun = true;
             search.place = list.x;
             if (LDC_SKIP != 0u && ordered && list.y - list.x >= LDC_BISECTION_LENGTH) {
-                // Triangles that may be hit at any depth come first: a list with any of them is read from its beginning.
+                // Triangles that may be hit at any depth come first in sorted lists. A list with such a
+                // triangle is read from its beginning.
                 bool from_begin = LDC_ACCEPT == LDC_ACCEPT_TRIANGLE
                     && ldc_is_anywhere(ldc_read(s, list.x, state, work));
                 search.place = from_begin ? list.x : ldc_first_from(s, list, wanted.x, state, work);

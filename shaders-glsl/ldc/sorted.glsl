@@ -1,5 +1,5 @@
-// The elements of a list for the shared sort: by depth, ties by triangle. Entry k of a sorted list is layer k of
-// its cell.
+// Defines the lists of a layered depth cube for the shared sort of ads/sort_lists.glsl. Fragments are sorted
+// by depth, at equal depth by triangle. Entry k of a sorted list is layer k of its cell.
 // Reads, writes: lists, depths, payload, scratch, header.long_demand, header.unsorted.
 // Source: the order that the peeling of Bürger et al. section 1.2 yields.
 #ifndef LDC_SORTED_GLSL
@@ -10,16 +10,17 @@
 #include "ads/build_constants.glsl"
 
 #define SORT_HEADER(s) LDC_HEADER(s)
-// Table of long lists, behind the sums of the scan.
+// The table of long lists lies in the scratch pool, behind the sums of the scan.
 #define SORT_WORD(s, place) LDC_POOL(s, scratch)[ldc_scan_words(s) + (place)]
 #define SORT_LIMIT SHORT_LIST_LIMIT
 #define SORT_LONG_LIMIT LONG_LIST_LIMIT
 
-// Structure of the list that is sorted, since the functions of the shared sort know elements by their number.
+// Structure and first place of the list that is being sorted. The functions of the shared sort know an
+// element only by its number in the list.
 LdcRef sorted_structure;
 uint sorted_from;
 
-// True if element i comes first. Depths are not negative, so that they order like their bits.
+// True if element i comes before element j. Depths are not negative, so they order like their bits.
 bool sort_before(uint i, uint j) {
     uint left = ldc_bits_at(sorted_structure, sorted_from + i);
     uint right = ldc_bits_at(sorted_structure, sorted_from + j);

@@ -1,6 +1,7 @@
-// The surface at a hit of a layered depth cube: of a triangle with the barycentrics of a point on its
-// plane, or of a fragment's own words.
-// Reads: header, the scene (payload index, and fragments that emit), payload (attributes). Writes: header.corrupted.
+// Finds the surface at a hit of a layered depth cube: that of a triangle at the hit point on the triangle's
+// plane, or that of a fragment's own words.
+// Reads: header; with payload index the scene; with attributes payload, and the scene for fragments that
+// emit. Writes: header.corrupted.
 #ifndef LDC_SURFACE_GLSL
 #define LDC_SURFACE_GLSL
 
@@ -8,8 +9,8 @@
 #include "scene/stored_surface.glsl"
 #include "ldc/accessors.glsl"
 
-// Returns a bound on a length where the part is posed, over that where its cube was built. Turns the normal to where
-// the part is posed, by the transpose of the map, which takes the front to the front.
+// Turns a normal from the space in which the cube was built to where its part is posed, by the transpose of
+// the map, which keeps the front in front. Returns a bound of the factor by which lengths grow on this way.
 float ldc_posed(LdcRef s, inout vec3 normal) {
     if (LDC_RIGID == 0u) {
         return 1.0;

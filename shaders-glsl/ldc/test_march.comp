@@ -1,6 +1,6 @@
-// Lists the squares that a traversal of a flat grid visits, for tests: once in one go, and once stopped
-// and resumed at every square.
-// Reads: rays in units of cells. Writes: visits (square, rows left), counts.
+// Lists the squares that a traversal of a flat grid visits, for tests: once in one go, and once with a stop
+// and a resumption at every square.
+// Reads: rays in units of cells. Writes: visits (square, rows left), counts. One invocation per ray.
 #version 460
 #include "contract/extensions.glsl"
 #include "contract/bits.glsl"
@@ -15,10 +15,10 @@ layout(set = 0, binding = 2, scalar) buffer CountBuffer { uint counts[]; };
 
 // Rays and squares to march through. 16 bytes.
 layout(push_constant, scalar) uniform SquareMarchTestConstants {
-    uint ray_count;       // rays
+    uint ray_count;       // number of rays
     int first;            // first square of the area, the same along both sides
     int last;             // last square of the area, the same along both sides
-    uint limit;           // visits per traversal
+    uint limit;           // visits stored per traversal
 } pushed;
 
 void traverse(uint index, Ray ray, bool stopped) {

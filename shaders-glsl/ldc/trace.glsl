@@ -1,4 +1,5 @@
-// Follows a ray through the three views, one after the other; each can only bring the end of the ray nearer.
+// Follows a ray through the three views, one after the other. A hit in one view ends the ray earlier in the
+// next.
 // Reads: all pools, geometry. Writes: header.corrupted.
 // Source: Bürger et al. section 1.4.
 #ifndef LDC_TRACE_GLSL
@@ -10,7 +11,8 @@
 #include "contract/trace_functions.glsl"
 #include "ldc/pause.glsl"
 
-// Returns the part of [t_min, t_max] in which the ray is inside the bounds of the geometry.
+// Returns the part of [t_min, t_max] in which a ray is inside the bounds of the geometry; it is empty if x >
+// y.
 vec2 ldc_clip(LdcRef s, Ray ray) {
     vec2 interval = vec2(ray.t_min, ray.t_max);
     for (int axis = 0; axis < 3; axis++) {
@@ -31,7 +33,7 @@ vec2 ldc_clip(LdcRef s, Ray ray) {
     return interval;
 }
 
-// Begins the traversal through a view; false if the ray does not cross it.
+// Begins the traversal through a view. Returns false if the ray does not cross the view.
 bool ldc_begin_view(vec2 clip, inout LdcTraversal traversal) {
     if (LDC_SKIP == 0u) {
         traversal.in_upper = true;
@@ -45,7 +47,7 @@ bool ldc_begin_view(vec2 clip, inout LdcTraversal traversal) {
     return traversal.in_upper;
 }
 
-// Goes to the next block of the view; false if there is none.
+// Goes to the next block of the view. Returns false if there is none.
 bool ldc_next_block(inout LdcTraversal traversal) {
     traversal.in_block = false;
     if (LDC_SKIP == 0u) {
@@ -58,13 +60,14 @@ bool ldc_next_block(inout LdcTraversal traversal) {
     return LDC_LEVELS == 2u && ldc_march_next(traversal.flat_ray, traversal.upper);
 }
 
-// Results of ldc_look for a square of blocks.
+// Results of ldc_look for a block: its contents are out of reach, its traversal has begun, or it lies behind
+// the best hit.
 #define LDC_SKIPPED 0u
 #define LDC_ENTERED 1u
 #define LDC_BEHIND 2u
 
-// Tests the block that the traversal of a level is at, and begins the traversal of the level within it if the
-// block's depths overlap the ray's.
+// Looks at the block at which the traversal of a level is. If the block's depths overlap the ray's depths
+// there, begins the traversal of the level inside.
 uint ldc_look(LdcRef s, LdcTraversal traversal, uint level, uint inner, LdcMarch march, inout LdcMarch within,
     inout TraceState state,
     inout uint work) {
@@ -84,8 +87,8 @@ uint ldc_look(LdcRef s, LdcTraversal traversal, uint level, uint inner, LdcMarch
     return entered ? LDC_ENTERED : LDC_SKIPPED;
 }
 
-// Traverses one view, from its beginning or from the place where it stopped; true if the work budget ended
-// first. Every level has a loop of its own: invocations that run in lockstep pay for everything that one of
+// Traverses one view, from its beginning or from where the ray paused. Returns true if the work budget ended
+// before. Every level has a loop of its own: invocations that run in lockstep all pay for whatever one of
 // them does in an iteration.
 bool ldc_trace_view(LdcRef s, Ray ray, bool any_hit, bool ordered, bool more, inout LdcTraversal traversal,
     inout LdcSearch search,
@@ -141,8 +144,8 @@ bool ldc_trace_view(LdcRef s, Ray ray, bool any_hit, bool ordered, bool more, in
 }
 
 #ifdef RIGID
-// Tests all triangles, if rounding may move them farther than the margins of cells. No cell is remembered:
-// the cursor has the next triangle.
+// Tests all triangles, if rounding may move them farther than the margins of cells. A paused ray keeps only
+// the number of the next triangle.
 uint ldc_trace_all(Ray ray, inout TraceState state, bool any_hit) {
     uint end = geometry_triangle_count();
     uint primitive = state.cursor[0];
@@ -173,8 +176,10 @@ Ray ldc_leave(LdcRef s, Ray ray) {
     return leaving_triangle(ray, ldc_reach(s), a, b, c);
 }
 
-// Traces a ray. The ray in the space of the build crosses views, blocks and cells, and meets the depths of
-// fragments; triangles are tested by the ray itself.
+// Traces a ray, or goes on with a ray that paused, and keeps the best hit in the state. With `any_hit` the
+// first hit that is found is enough. Returns TRACE_*.
+// The ray in the space of the build (`marched`) crosses views, blocks and cells, and meets the depths of
+// fragments. Triangles are tested against the ray where it is posed.
 uint ldc_trace(LdcRef s, Ray ray, inout TraceState state, bool any_hit) {
     bool ordered = LDC_HEADER(s).unsorted == 0u;
     LdcSizes sizes = ldc_sizes(s, ray);
@@ -186,7 +191,7 @@ uint ldc_trace(LdcRef s, Ray ray, inout TraceState state, bool any_hit) {
         return ldc_trace_all(ray, state, any_hit);
     }
     ldc_spread = spread / sizes.cell;
-    // A plane rises by a cell along each side at most.
+    // A plane rises by at most one cell along each side of a cell.
     sizes.margin += 4.0 * spread;
     marched = ldc_leave(s, marched);
     ray.t_min = marched.t_min;
@@ -201,8 +206,8 @@ uint ldc_trace(LdcRef s, Ray ray, inout TraceState state, bool any_hit) {
     }
     bool restored = bits_are_set(state.cursor[0], LDC_CURSOR_STARTED);
     uint work = 0u;
-    // The view in which the ray crosses the fewest cells comes first: a hit there ends the traversals of the
-    // others early.
+    // The view in which the ray crosses the fewest cells comes first, because a hit there ends the traversals
+    // of the other views early.
     uint first_axis = triangle_major_axis(marched.direction);
     for (uint turn = restored ? bits_get(state.cursor[0], LDC_CURSOR_TURN) : 0u; turn < AXIS_VIEWS; turn++) {
         uint axis = (first_axis + turn) % AXIS_VIEWS;
@@ -240,6 +245,8 @@ uint ldc_status(LdcRef s) {
     return LDC_HEADER(s).status;
 }
 
+// Returns the hit that the best hit of a trace represents. With LDC_IDS a hit on a fragment gets the id of
+// its triangle.
 Hit ldc_hit(LdcRef s, Hit best) {
     Hit hit = best;
     if (LDC_IDS != 0u && hit.primitive == PRIMITIVE_UNKNOWN) {

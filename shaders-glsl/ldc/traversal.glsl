@@ -1,8 +1,9 @@
-// A ray's traversal through one view: over blocks of blocks, over blocks of cells, and over cells, each within those
-// above it whose depths overlap its own.
+// Follows a ray through one view on up to three levels: blocks of blocks, blocks of cells, and cells. Each
+// level is entered only where the depths of the level above overlap those of the ray.
 // Reads: header, blocks. Writes: nothing.
-// Source: Bürger et al. section 1.4, two-level traversal. A block's or cell's segment of the ray follows from its place
-// alone, so it does not matter how the traversal got there.
+// Source: Bürger et al. section 1.4, two-level traversal.
+// The ray's segment in a block or a cell follows from the place of that block or cell alone, so it does not
+// matter how the traversal got there.
 #ifndef LDC_TRAVERSAL_GLSL
 #define LDC_TRAVERSAL_GLSL
 
@@ -11,25 +12,29 @@
 #include "ldc/march.glsl"
 #include "ldc/search.glsl"
 
+// Traversal of a ray through one view.
 struct LdcTraversal {
     LdcSizes sizes;
     uint axis;
-    float t_begin;        // where the ray is within the geometry's bounds
+    float t_begin;        // t interval of the ray within the bounds of the geometry
     float t_end;
-    vec3 origin;          // cells, cells, and shares of the cube's side
+    vec3 origin;          // in the frame of the view: x and y in cells, z in shares of the cube's side
     vec3 direction;
-    vec2 inverse;         // 1 / direction, zero where that is not finite
-    float z_origin;       // metres
+    vec2 inverse;         // 1 / direction.xy, or zero where that is not finite
+    float z_origin;       // depth of the ray's origin, metres
     float z_direction;
     float shift;          // bound of |origin / direction|
     LdcFlatRay flat_ray;
-    LdcMarch upper;       // blocks of blocks, with two levels only
+    LdcMarch upper;       // march over blocks of blocks, with two levels only
     LdcMarch blocks;
     LdcMarch cells;
+    // true if the march over blocks of cells has begun
     bool in_upper;
+    // true if the march over cells has begun
     bool in_block;
 };
 
+// Returns the traversal of a ray through the view along an axis, over a t interval; no level has begun.
 LdcTraversal ldc_begin_traversal(LdcRef s, Ray ray, LdcSizes sizes, uint axis, float t_begin, float t_end) {
     LdcTraversal traversal;
     traversal.sizes = sizes;
@@ -61,8 +66,8 @@ LdcTraversal ldc_begin_traversal(LdcRef s, Ray ray, LdcSizes sizes, uint axis, f
     return traversal;
 }
 
-// Returns the ray's segment within cells [lower, upper) of the view, widened by its rounding; empty (x > y)
-// if it passes outside them.
+// Returns the ray's t interval in the cells of the view from `lower` up to, but not including, `upper`,
+// widened by its rounding. The interval is empty (x > y) if the ray passes beside these cells.
 vec2 ldc_square_interval(LdcTraversal traversal, ivec2 lower, ivec2 upper) {
     vec2 t = vec2(traversal.t_begin, traversal.t_end);
     for (int side = 0; side < 2; side++) {
@@ -81,21 +86,22 @@ vec2 ldc_square_interval(LdcTraversal traversal, ivec2 lower, ivec2 upper) {
     return vec2(t.x - slack.x, t.y + slack.y);
 }
 
+// Returns the ray's t interval in a block of a level.
 vec2 ldc_block_interval(LdcTraversal traversal, uint level, ivec2 block) {
     ivec2 cells = ldc_block_cells(level);
     return ldc_square_interval(traversal, block * cells, (block + 1) * cells);
 }
 
-// True if nothing in a segment that begins at t_low, or in a later one, can be nearer than the best hit. A
-// later segment may begin earlier by as much as a segment is widened for its rounding.
+// True if nothing in a segment that begins at t_low, or in a later segment, can be nearer than the best hit.
+// A later segment may begin earlier by as much as a segment is widened for its rounding.
 bool ldc_is_behind(LdcTraversal traversal, float t_low, float best_t) {
     float t = t_low - traversal.sizes.slack - FLOAT_ROUNDING * (8.0 * abs(t_low) + 2.0 * traversal.shift);
     return LDC_SHIFTED(t, -2.0 * ldc_spread * max(abs(traversal.inverse.x), abs(traversal.inverse.y))) > best_t;
 }
 
-// Begins the traversal over the blocks of a level, or over cells (level 2), in a block of the level above or in
-// all of the view; false where the segment has none. Squares that it touches outside of the block belong to blocks
-// that are traversed as well.
+// Begins the traversal over the blocks of a level (0 or 1) or over cells (level 2): inside a block of the
+// level above, or over the whole view. Returns false if the ray crosses none of them in the interval. Squares
+// outside the block that the ray touches belong to blocks that the ray also visits.
 bool ldc_begin_level(LdcTraversal traversal, uint level, bool within, ivec2 block, vec2 interval, out LdcMarch march) {
     ivec2 widths = level == 2u ? ivec2(1) : ldc_block_cells(level);
     ivec2 first = ivec2(0);
@@ -115,7 +121,7 @@ bool ldc_block_overlaps(LdcRef s, LdcTraversal traversal, uint level, ivec2 bloc
     LdcBlock held = ldc_block_depths(s, place);
     float margin = traversal.sizes.margin;
     vec2 depths = ldc_depths_between(traversal.z_origin, traversal.z_direction, interval.x, interval.y);
-    // Depths computed for a cell round differently.
+    // The depths that a search computes for a cell round differently.
     float rounding = 8.0 * FLOAT_ROUNDING * (abs(traversal.z_origin) + max(abs(interval.x),
         abs(interval.y)) * abs(traversal.z_direction));
     float low = depths.x - margin - rounding;

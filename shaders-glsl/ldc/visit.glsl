@@ -1,5 +1,5 @@
-// Work of the build on a triangle in a cell of its view, the same for every builder: it counts, or stores.
-// Reads: geometry, header, with ALPHA_SCENE the scene. Writes: lists, depths, payload, blocks; scratch,
+// Processes a triangle in a cell of its view, the same for every builder: counts the fragment, or stores it.
+// Reads: geometry, header, with ALPHA_SCENE the scene. Writes: lists, depths, payload, blocks, scratch,
 // header.layer_demand, header.beyond.
 // Source: Bürger et al. sections 1.2 and 1.3.
 #ifndef LDC_VISIT_GLSL
@@ -8,8 +8,8 @@
 #include "ldc/blocks.glsl"
 #include "ldc/covered.glsl"
 
-// Lengthens the cell's list; in the second draw with peeling it advances the list's word from its first place
-// to its end.
+// Adds one to the length of a cell's list. In the second draw with peeling it advances the word of the list
+// from the list's first place towards its end.
 void ldc_visit_count(uint primitive, uint axis, ivec2 cell) {
     float z;
     vec2 barycentrics;
@@ -21,8 +21,8 @@ void ldc_visit_count(uint primitive, uint axis, ivec2 cell) {
     }
 }
 
-// Widens the depths of a cell's blocks by a depth stored for a triangle, or by all depths of the triangle if
-// rays may hit it at any.
+// Widens the depths of a cell's blocks by a depth that is stored for a triangle; or by all depths of the
+// triangle, if rays may hit it at any of them.
 void ldc_widen_by(uint primitive, uint axis, ivec2 cell, uint bits) {
     float z = ldc_depth_of_bits(build.structure, bits);
     vec2 depths = vec2(z);
@@ -36,6 +36,7 @@ void ldc_widen_by(uint primitive, uint axis, ivec2 cell, uint bits) {
     ldc_widen_blocks(build.structure, axis, cell, depths.x, depths.y);
 }
 
+// Stores the fragment of a triangle in a cell, if the cell keeps it.
 void ldc_visit_store(uint primitive, uint axis, ivec2 cell) {
     float z;
     vec2 barycentrics;

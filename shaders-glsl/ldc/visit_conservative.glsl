@@ -1,7 +1,8 @@
-// Stores a triangle in the conservative list of a cell that it reaches into without covering the centre, where no
-// fragment represents it: at edges towards triangles of another view, at silhouettes, and where it is smaller than a
-// cell. The same for every builder.
-// Reads: geometry, header, lists, depths, payload. Writes: heads, conservative lists, blocks, header.conservative_demand.
+// Puts a triangle into the conservative list of a cell that it reaches into without covering the centre, if
+// no fragment of the cell represents the triangle; the same for every builder. Such cells are at edges
+// towards triangles of another view, at silhouettes, and where the triangle is smaller than a cell.
+// Reads: geometry, header, lists, depths, payload. Writes: heads, conservative lists, blocks,
+// header.conservative_demand, header.corrupted.
 // Source: not in the paper, in which rays pass between the cells of the views there.
 #ifndef LDC_VISIT_CONSERVATIVE_GLSL
 #define LDC_VISIT_CONSERVATIVE_GLSL
@@ -10,16 +11,16 @@
 #include "ldc/covered.glsl"
 #include "ldc/conservative.glsl"
 
-// True if a fragment of the cell represents a triangle there: a fragment of the same draw, whose plane passes
-// within `close` metres of this point of the triangle, in the view. Another draw may be of another material:
-// a lamp let into a ceiling is not the ceiling.
+// True if a fragment of the cell represents a triangle there. The fragment must be of the same draw, and its
+// plane must pass within `close` metres of a point of the triangle, in depth. Another draw may have another
+// material: a lamp let into a ceiling is not the ceiling.
 bool ldc_is_stood_for(
     AxisView view, uint cell, uint primitive, vec2 point, float z_point, float z_center, float close) {
     uvec2 list = ldc_list(build.structure, cell, ldc_places(build.structure));
     if (list.y - list.x > CONSERVATIVE_LIMIT) {
         return false;
     }
-    // The depth of each plane changes by at most one cell between point and centre.
+    // The depth of each plane changes by at most one cell between the point and the centre.
     float window = 2.0 * view.cell + close + ldc_depth_rounding(build.structure);
     uint draw = geometry_draw(primitive);
     for (uint place = list.x; place < list.y; place++) {
@@ -38,9 +39,10 @@ bool ldc_is_stood_for(
     return false;
 }
 
+// Visits a cell for a triangle, which may also miss the cell.
 void ldc_visit_conservative(uint primitive, uint axis, ivec2 place) {
     if (!ldc_fragments_fit(build.structure)) {
-        // The fragments that represent a triangle are unknown until all fragments fit.
+        // Which fragments could represent a triangle is unknown until all fragments fit.
         return;
     }
     AxisView view = ldc_built_view(axis);
@@ -63,14 +65,15 @@ void ldc_visit_conservative(uint primitive, uint axis, ivec2 place) {
     float z_point = clamp(axis_plane_depth(a, b, c, point), z_nearest, z_farthest);
     float z_center = axis_plane_depth(a, b, c, center);
     uint cell = ldc_cell(build.structure, view.axis, place);
-    // A triangle far smaller than a cell is not represented by a surface that is near it only in units of the cell.
+    // The distance is in units of the triangle where that is smaller than a cell: a surface that is close
+    // only in units of the cell does not represent a far smaller triangle.
     vec3 sides = max(a, max(b, c)) - min(a, min(b, c));
     float size = min(view.cell, max(sides.x, max(sides.y, sides.z)));
     if (ldc_is_stood_for(view, cell, primitive, point, z_point, z_center, CONSERVATIVE_DEPTH * size)) {
         return;
     }
     float extent = axis_extent(view, a, b, c);
-    // These depths are those of the part of the triangle within the cell.
+    // These are the depths of the part of the triangle within the cell.
     vec2 depths = max(clamp(z_center + vec2(-extent, extent), z_nearest, z_farthest), vec2(0.0));
     ldc_widen_blocks(build.structure, view.axis, place, depths.x, depths.y);
     conservative_add(build.structure, cell, primitive, depths);

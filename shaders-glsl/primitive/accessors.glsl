@@ -1,5 +1,6 @@
-// The pools of primitive lists, reached as ads/pools.glsl says.
-// Reads, writes: header, bounds, lists, entries, sums, near-region list. Every access checks the capacity.
+// Access to the pools of primitive lists: depth bounds and lists of cells.
+// Reads, writes: header, bounds, lists, entries, sums, near-region list. ads/pools.glsl says how pools are
+// reached. Every access to a cell compares its index with the number of cells.
 #ifndef PRIMITIVE_ACCESSORS_GLSL
 #define PRIMITIVE_ACCESSORS_GLSL
 
@@ -22,7 +23,7 @@ uint primitive_list_count(PrimitiveRef s) {
     return primitive_cell_count(s) * PRIMITIVE_BUCKETS;
 }
 
-// Returns the running index of the list of a cell's bucket.
+// Returns the index of the list of a bucket of a cell.
 uint primitive_list(uint cell, uint bucket) {
     return cell * PRIMITIVE_BUCKETS + bucket;
 }
@@ -31,8 +32,9 @@ uint primitive_bounds_stride() {
     return PRIMITIVE_BUCKETS > 1u ? 3u : 2u;
 }
 
-// Widens the bounds of a cell. Word 0 holds the complement of the smallest depth's bits, so that a
-// cleared cell is empty and both ends are maxima; positive floats order like their bits.
+// Widens the depth bounds of a cell. Word 0 holds the complement of the bits of the smallest depth, word 1
+// the bits of the largest. Positive floats are ordered as their bits are, so both words are found by a
+// maximum, and a cell whose words are cleared to 0 is empty.
 void primitive_widen_bounds(PrimitiveRef s, uint cell, vec2 depths) {
     uint word = cell * primitive_bounds_stride();
     atomicMax(PRIMITIVE_POOL(s, bounds)[word], ~floatBitsToUint(depths.x));
@@ -58,7 +60,7 @@ PrimitiveBounds primitive_bounds(PrimitiveRef s, uint cell) {
     return bounds;
 }
 
-// Stores the scale of a cell's buckets next to its bounds, only if there are several buckets.
+// Stores the scale of a cell's buckets behind its bounds. Called only if there are several buckets.
 void primitive_store_scale(PrimitiveRef s, uint cell) {
     PrimitiveBounds bounds = primitive_bounds(s, cell);
     float scale = bounds.empty ? 0.0 : bucket_scale(bounds.z_min, bounds.z_max, PRIMITIVE_BUCKETS);

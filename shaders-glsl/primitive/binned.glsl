@@ -1,7 +1,8 @@
-// Work of a binning pass on a triangle in a face; BIN_VISIT says which pass it is.
-// Reads: geometry, header, bounds. Writes: bounds, or lists and entries; large-triangle queue, header.large_demand,
-// header.groups.
-// Source: DIRT section 4.1, by computing instead of drawing. The same functions decide as in the raster builder.
+// What a binning pass does with a triangle in a face; BIN_VISIT says which pass it is.
+// Reads: geometry, header, bounds. Writes: bounds, or lists and entries; large-triangle queue,
+// header.large_demand, header.groups.
+// Source: DIRT section 4.1, in compute passes instead of draws. The functions that decide are those of the
+// raster builder.
 #ifndef PRIMITIVE_BINNED_GLSL
 #define PRIMITIVE_BINNED_GLSL
 
@@ -20,8 +21,8 @@ POOL_WORDS(primitive, large, 6)
 #include "ads/bin_large.glsl"
 
 #define bin_built build.structure
-// The queue of large triangles is filled by the pass for bounds, which always runs, so that it needs no pass
-// of its own.
+// The pass for bounds always runs, so it also fills the large-triangle queue, which then needs no pass of its
+// own.
 #define BIN_ENQUEUES BIN_VISIT_BOUNDS
 #define BIN_TELLS_BLOCKS
 
@@ -29,19 +30,20 @@ uint bin_view_count() {
     return primitive_view_count();
 }
 
-// Triangle in a face, with the first and last column and row that may hold any part of it.
+// A triangle in a face.
 struct Bin {
-    uint primitive;
-    uint face;
-    PrimitiveGrid grid;
-    vec3 a;
-    vec3 b;
-    vec3 c;
-    Overlap overlap;
+    uint primitive;       // number of the triangle in the bound geometry
+    uint face;            // number of the face
+    PrimitiveGrid grid;   // values of the header
+    vec3 a;               // first corner, face space, metres
+    vec3 b;               // second corner
+    vec3 c;               // third corner
+    Overlap overlap;      // what the tests against all cells share
+    // distance beyond the sides of a cell within which the triangle counts as in the cell, in x/z
     float margin;
-    ivec2 lower;
-    ivec2 upper;
-    bool large;
+    ivec2 lower;          // first column and row that may hold any part of the triangle
+    ivec2 upper;          // last column and row
+    bool large;           // true if there are too many cells for one invocation
 };
 
 bool bin_load(uint primitive, out BinTriangle triangle) {
@@ -52,7 +54,7 @@ bool bin_load(uint primitive, out BinTriangle triangle) {
     return listed;
 }
 
-// Begins a triangle in a face; false if it reaches into no column of the face.
+// Begins a triangle in a face. Returns false if no part of the triangle can be in a column of the face.
 bool bin_begin(BinTriangle triangle, uint face, out Bin bin) {
     bin.primitive = triangle.primitive;
     bin.face = face;
@@ -70,8 +72,8 @@ bool bin_begin(BinTriangle triangle, uint face, out Bin bin) {
     return true;
 }
 
-// Finds the depths of the triangle within a square of `side` columns; false if it does not reach into the
-// square.
+// Finds the depths of the triangle within a square of `side` columns from `column` on. Returns false if the
+// triangle does not reach into the square.
 bool primitive_bin_depths(Bin bin, ivec2 column, int side, out vec2 depths) {
     float tiles = float(bin.grid.tiles);
     precise float half_side = float(side) / tiles + bin.margin;

@@ -1,6 +1,7 @@
-// Lists the triangles that intersect the near region, where the faces cannot be told apart.
+// Lists the triangles that intersect the near region, where rounding does not tell the faces apart.
 // Reads: geometry, header. Writes: near-region list, header.near_demand.
-// Source: not in the paper, whose faces start at a near plane; see docs/core.md.
+// One invocation per triangle.
+// Source: not in the paper, whose faces begin at a near plane; see docs/core.md.
 #version 460
 #include "contract/extensions.glsl"
 #include "ads/append.glsl"

@@ -1,5 +1,6 @@
-// Depth bounds of each cell.
+// Computes the depth bounds of each cell.
 // Reads: geometry, header. Writes: bounds.
+// One invocation per fragment that the rasterizer proposes: a triangle in a cell of a face.
 // Source: DIRT section 3.2, fill depth.
 #version 460
 #include "contract/extensions.glsl"

@@ -1,5 +1,7 @@
-// The scale of each cell's buckets, stored once so that build and trace use the same number.
-// Reads: bounds. Writes: bounds. Runs only where there are several buckets.
+// Computes the scale of each cell's buckets and stores it, so that build and trace use the same number. Runs
+// only if there are several buckets.
+// Reads: bounds. Writes: bounds (scale).
+// One invocation per cell.
 // Source: DIRT section 3.2, equation of the bucket index.
 #version 460
 #include "contract/extensions.glsl"

@@ -1,6 +1,7 @@
-// Length of each list, contiguous storage only.
+// Counts the entries of each list. Runs only if lists are contiguous.
 // Reads: geometry, header, bounds. Writes: lists.
-// Source: DIRT section 3.2, fill primitives; counted first, so that lists can be stored contiguously.
+// One invocation per fragment that the rasterizer proposes: a triangle in a cell of a face.
+// Source: DIRT section 3.2, fill primitives; entries are counted first, so that lists can be contiguous.
 #version 460
 #include "contract/extensions.glsl"
 #include "primitive/raster.glsl"

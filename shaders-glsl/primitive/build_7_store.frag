@@ -1,5 +1,6 @@
-// Puts each triangle into the lists of the cells and buckets it reaches into.
-// Reads: geometry, header, bounds. Writes: lists, entries, with linked storage header.demand.
+// Stores each triangle in the lists of the cells and buckets that it reaches into.
+// Reads: geometry, header, bounds. Writes: lists, entries; header.demand if lists are linked.
+// One invocation per fragment that the rasterizer proposes: a triangle in a cell of a face.
 // Source: DIRT section 3.2, fill primitives.
 #version 460
 #include "contract/extensions.glsl"

@@ -1,19 +1,21 @@
-// The published depths of a triangle in a cell: of its plane at the cell's corners, whatever the triangle covers.
+// The published depths of a triangle in a cell: those of its plane at the corners of the cell, whatever part
+// of the cell the triangle covers.
 // Reads, writes: nothing.
-// Source: DIRT section 4.1.1; the authors' program intersects the plane with the rays through the corners, and
-// ignores rays within a thousandth of parallel to it. Where some are ignored, the depths miss part of
-// the triangle.
+// Source: DIRT section 4.1.1. The authors' program intersects the plane with the rays through the corners,
+// and ignores rays whose angle to the plane has a sine of less than a thousandth. If rays are ignored, the
+// depths miss part of the triangle.
 #ifndef PRIMITIVE_CORNER_DEPTHS_GLSL
 #define PRIMITIVE_CORNER_DEPTHS_GLSL
 
 #include "ads/coverage.glsl"
 #include "primitive/overlap.glsl"
 
-// Square of the smallest cosine between a corner's ray and the normal.
+// Square of the smallest cosine of the angle between a corner's ray and the normal.
 const float CORNER_STEEPNESS = 1.0e-6;
 
-// Returns smallest and largest depth; those of the whole view if no corner's ray intersects the plane within
-// it. Every step is precise, since passes that count and passes that store must decide alike.
+// Returns the smallest and the largest depth. If no ray intersects the plane within the view, returns those
+// of the whole view. The expressions are precise, since the passes that count and those that store must
+// agree.
 vec2 primitive_corner_depths(PrimitiveGrid grid, vec3 a, vec3 b, vec3 c, ivec2 cell) {
     precise vec3 ab = b - a;
     precise vec3 ac = c - a;
@@ -36,7 +38,7 @@ vec2 primitive_corner_depths(PrimitiveGrid grid, vec3 a, vec3 b, vec3 c, ivec2 c
     return depths.x <= depths.y ? depths : vec2(view_near, grid.reach);
 }
 
-// True if the triangle reaches into a cell, with the depths for its list entry.
+// True if the triangle reaches into a cell. `depths` gets the depths by which the triangle is listed there.
 bool primitive_reaches(PrimitiveGrid grid, vec3 a, vec3 b, vec3 c, ivec2 cell, out vec2 depths) {
     bool reaches = primitive_overlap(grid, a, b, c, cell, depths);
     if (PRIMITIVE_DEPTHS == PRIMITIVE_DEPTHS_CORNERS && reaches) {

@@ -1,4 +1,4 @@
-// Places the faces of primitive lists for the bounds of the geometry and the eye.
+// Places the faces of primitive lists, given the bounds of the geometry and the eye.
 // Reads, writes: header.
 // Source: none; docs/systems/dirt.md.
 #ifndef PRIMITIVE_FROM_BOUNDS_GLSL
@@ -16,7 +16,7 @@ void primitive_from_bounds(PrimitiveRef s, vec3 lower, vec3 upper) {
     }
     vec3 first = lower - centre;
     vec3 last = upper - centre;
-    // Factor by which a view's transformation lengthens an error.
+    // Factor by which the transformation into a view lengthens an error.
     float scale = 1.0;
     float distance_from_centre = box_reach(first, last);
     if (PRIMITIVE_VIEWS == PRIMITIVE_VIEWS_CAMERA) {
@@ -30,15 +30,16 @@ void primitive_from_bounds(PrimitiveRef s, vec3 lower, vec3 upper) {
     }
     float reach = box_reach(first, last);
     // A difference of two coordinates is rounded relative to itself, so the distance of the centre from the
-    // frame origin does not matter.
+    // frame origin does not matter here.
     float rounding = TRIANGLE_ROUNDING * max(reach, scale * distance_from_centre);
     PRIMITIVE_HEADER(s).centre = centre;
     PRIMITIVE_HEADER(s).reach = reach;
     PRIMITIVE_HEADER(s).rounding = rounding;
     PRIMITIVE_HEADER(s).lower = first - rounding;
     PRIMITIVE_HEADER(s).upper = last + rounding;
-    // Hits of a ray outside the near region are not behind the centre, even if there are few tiles. Depths
-    // are positive, even if all geometry is at the eye.
+    // The near region is at least as large as twice the rounding, so that hits outside of it are not behind
+    // the centre, even if there are few tiles. It has at least the smallest size, so that depths are positive
+    // even if all geometry is at the eye.
     float near = max(NEAR_REGION * float(PRIMITIVE_HEADER(s).tiles) * reach, 2.0 * rounding);
     PRIMITIVE_HEADER(s).near_size = max(near, PLACEMENT_SMALLEST);
 }

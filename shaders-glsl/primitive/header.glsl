@@ -1,5 +1,5 @@
-// The header of primitive lists.
-// Reads, writes: header; stages with STRUCTURE_READ_ONLY only read it.
+// The header of primitive lists, and the transformation into the space of the faces.
+// Reads, writes: header; shaders that define STRUCTURE_READ_ONLY only read it.
 #ifndef PRIMITIVE_HEADER_GLSL
 #define PRIMITIVE_HEADER_GLSL
 
@@ -18,8 +18,8 @@ vec3 primitive_turned(mat3 turn, vec3 v) {
     return turned;
 }
 
-// Transforms a point relative to the centre, or a direction, into the space of the faces. With the camera's
-// view alone that space is turned and scaled so that the pyramid of face 0 is the view of the camera.
+// Transforms a point relative to the centre, or a direction, into the space of the faces. If the only view is
+// the camera's, that space is transformed so that the pyramid of face 0 is the view of the camera.
 vec3 primitive_seen(PrimitiveRef s, vec3 v) {
     if (PRIMITIVE_VIEWS == PRIMITIVE_VIEWS_CUBE) {
         return v;

@@ -1,20 +1,22 @@
-// The published march: from where a ray leaves a tile half a pixel on along the longer axis, to the tile there.
+// The published march: each step goes from where a ray leaves a tile to the tile half a pixel beyond,
+// measured along the axis on which the ray is faster.
 // Reads: header. Writes: nothing.
-// Source: DIRT section 4.2.1 and the authors' program. Tiles that the ray crosses in less than the half pixel
-// are skipped.
+// Source: DIRT section 4.2.1 and the authors' program. Tiles that the ray crosses within the half pixel are
+// skipped.
 #ifndef PRIMITIVE_JUMP_GLSL
 #define PRIMITIVE_JUMP_GLSL
 
 #include "ads/march_skip.glsl"
 #include "primitive/header.glsl"
 
-// Returns half a pixel in x/z; a face is 2 wide.
+// Returns half a pixel in x/z. A face is 2 wide.
 float primitive_half_pixel(PrimitiveRef s) {
     return 1.0 / float(PRIMITIVE_HEADER(s).tiles * PRIMITIVE_HEADER(s).tile);
 }
 
-// Goes on to the tile half a pixel behind the exit from a tile or a block of tiles, or to the tile of the
-// segment's end; false behind that. A face takes at most two jumps per pixel and one step per tile.
+// Steps to the tile half a pixel beyond the exit from a tile or a block of tiles, or to the tile in which the
+// segment ends; returns false behind that tile. A face takes at most two jumps per pixel and one step per
+// tile.
 bool primitive_jump(PrimitiveRef s, inout CellMarch m, MarchSkip skip) {
     m.neighbours = 0u;
     if (!skip.step_x && !skip.step_y) {
@@ -29,13 +31,13 @@ bool primitive_jump(PrimitiveRef s, inout CellMarch m, MarchSkip skip) {
     float landing = leaves[axis] / leaves.z + float(way) * primitive_half_pixel(s);
     float error;
     float t = march_crossing(landing, m.origin[axis], m.direction[axis], m.origin.z, m.direction.z, way, error);
-    // If the half pixel is lost in rounding, the march is the exact one, so that every ray ends.
+    // If rounding loses the half pixel, the exact march takes this step, so that the march of every ray ends.
     if (!(t > skip.t_out)) {
         bool more = march_take_skip(m, skip);
         m.neighbours = 0u;
         return more;
     }
-    // The paper marches up to the projection of the ray's end: its tile is the last.
+    // The paper marches up to the projection of the ray's end, whose tile is the last.
     if (!(t < m.t_end)) {
         if (!(m.t_in < m.t_end) || m.t_end > 3.0e38) {
             return false;
@@ -55,7 +57,7 @@ bool primitive_jump(PrimitiveRef s, inout CellMarch m, MarchSkip skip) {
     return true;
 }
 
-// Returns the t at which the ray entered its new tile, not before the segment.
+// Returns the t at which the ray entered the tile it has jumped to, but not before `t_begin`.
 float primitive_jumped_entry(CellMarch m, float t_begin) {
     float t_in = t_begin;
     for (int axis = 0; axis < 2; axis++) {

@@ -1,8 +1,9 @@
-// The lists of triangles, in one of two storages.
+// Stores and reads the lists of triangles.
 // Reads, writes: lists, entries, header.demand, header.corrupted.
-// Source: DIRT section 3.2, fill primitives. linked: a node of primitive and next, links are node number
-// + 1, 0 ends a list. contiguous: primitives only; the word of a list is its end once all are
-// stored, and the word before it its begin.
+// Source: DIRT section 3.2, fill primitives.
+// A linked list consists of nodes of two words: a triangle, and the link of the next node. A link is the
+// number of a node plus 1; 0 ends a list. A contiguous list consists of triangles only. Once all triangles
+// are stored, the word of a list is the place of its end, and the word before it the place of its begin.
 #ifndef PRIMITIVE_LISTS_GLSL
 #define PRIMITIVE_LISTS_GLSL
 
@@ -10,18 +11,19 @@
 #include "ads/geometry.glsl"
 #include "primitive/accessors.glsl"
 
-// Cursor of a list that is being read.
+// The position in a list that is being read.
 struct PrimitiveCursor {
-    uint at;              // link, or place of the next entry
-    uint end;             // place after the last entry, contiguous only
+    uint at;              // linked: link of the next node; contiguous: place of the next entry
+    uint end;             // contiguous: place behind the last entry
 };
 
-// Returns the number of entries that the build has stored.
+// Returns the number of entries that are stored.
 uint primitive_stored(PrimitiveRef s) {
     return min(PRIMITIVE_HEADER(s).capacity, PRIMITIVE_HEADER(s).demand);
 }
 
-// Begins a list. A contiguous list that leaves the pool or runs backwards is counted and is empty.
+// Begins to read a list. A contiguous list that leaves the pool or whose end comes before its begin is
+// counted as corrupted, and read as empty.
 PrimitiveCursor primitive_list_begin(PrimitiveRef s, uint list) {
     uint word = PRIMITIVE_POOL(s, lists)[list];
     if (PRIMITIVE_STORAGE == PRIMITIVE_STORAGE_LINKED) {
@@ -35,7 +37,7 @@ PrimitiveCursor primitive_list_begin(PrimitiveRef s, uint list) {
     return PrimitiveCursor(begin, word);
 }
 
-// Resumes a list that has been read up to `at`.
+// Goes on to read a list at position `at`.
 PrimitiveCursor primitive_list_resume(PrimitiveRef s, uint list, uint at) {
     return PrimitiveCursor(at, PRIMITIVE_STORAGE == PRIMITIVE_STORAGE_LINKED ? 0u : PRIMITIVE_POOL(s, lists)[list]);
 }
@@ -44,8 +46,9 @@ bool primitive_list_ended(PrimitiveCursor cursor) {
     return PRIMITIVE_STORAGE == PRIMITIVE_STORAGE_LINKED ? cursor.at == 0u : cursor.at >= cursor.end;
 }
 
-// Returns the next triangle of a list that has not ended. An entry past the end of the pool is counted and
-// ends the list with PRIMITIVE_NONE; an entry with an invalid index is counted and gives PRIMITIVE_NONE.
+// Returns the next triangle of a list that has not ended. If the entry is past the end of the pool, counts
+// it, ends the list, and returns PRIMITIVE_NONE. If the entry is no triangle, counts it and returns
+// PRIMITIVE_NONE.
 uint primitive_list_next(PrimitiveRef s, inout PrimitiveCursor cursor) {
     uint entry = PRIMITIVE_STORAGE == PRIMITIVE_STORAGE_LINKED ? cursor.at - 1u : cursor.at;
     if (entry >= primitive_stored(s)) {
@@ -68,12 +71,12 @@ uint primitive_list_next(PrimitiveRef s, inout PrimitiveCursor cursor) {
     return primitive;
 }
 
-// Adds one to the length of a list, contiguous only.
+// Adds one to the length of a contiguous list.
 void primitive_list_count_one(PrimitiveRef s, uint list) {
     atomicAdd(PRIMITIVE_POOL(s, lists)[list], 1u);
 }
 
-// Puts a triangle into a list, or counts that the capacity was too small.
+// Stores a triangle in a list. Beyond the capacity the triangle is only counted.
 void primitive_list_store(PrimitiveRef s, uint list, uint primitive) {
     if (PRIMITIVE_STORAGE == PRIMITIVE_STORAGE_CONTIGUOUS) {
         LIST_APPEND(PRIMITIVE_POOL(s, lists)[list], PRIMITIVE_HEADER(s).capacity, PRIMITIVE_POOL(s, entries), 0u, primitive)

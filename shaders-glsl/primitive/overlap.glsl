@@ -1,8 +1,7 @@
-// Tests whether a triangle reaches into a cell, with its depths there. This function decides for
-// every builder; it may accept more than is exact, never less.
+// Tests whether a triangle reaches into a cell, and finds its depths there. All builders decide by this
+// function. It may accept more cells than is exact, never fewer.
 // Reads: header. Writes: nothing.
-// Source: DIRT section 3.2 clips each primitive to the tile. Here the depth follows from the plane over
-// the whole tile and from the corners: 1/z is affine in x/z and y/z.
+// Source: DIRT section 3.2 clips each primitive to the tile; ads/overlap.glsl says how this test differs.
 #ifndef PRIMITIVE_OVERLAP_GLSL
 #define PRIMITIVE_OVERLAP_GLSL
 
@@ -10,7 +9,7 @@
 #include "ads/overlap.glsl"
 #include "primitive/header.glsl"
 
-// Returns the corners of a triangle in the space of a face.
+// Computes the corners of a triangle in face space.
 void primitive_face_vertices(PrimitiveRef s, uint primitive, uint face, out vec3 a, out vec3 b, out vec3 c) {
     geometry_vertices(primitive, a, b, c);
     vec3 eye = PRIMITIVE_HEADER(s).centre;
@@ -19,7 +18,7 @@ void primitive_face_vertices(PrimitiveRef s, uint primitive, uint face, out vec3
     c = face_from_world(primitive_seen(s, c - eye), face);
 }
 
-// True if a triangle is in any list: a triangle without area is never hit, so it is in none.
+// True if a triangle is listed: all are but those without area, which are never hit.
 bool primitive_is_listed(uint primitive) {
     vec3 a;
     vec3 b;
@@ -28,13 +27,13 @@ bool primitive_is_listed(uint primitive) {
     return triangle_has_area(a, b, c);
 }
 
-// Values of the header that decide which cells list a triangle. Precise expressions take values from such a
-// local copy: with addresses, glslang does not end if they follow a reference.
+// Values of the header that decide which cells list a triangle. Precise expressions take values from a local
+// copy of this record: with device addresses, glslang does not end if such expressions follow a reference.
 struct PrimitiveGrid {
-    uint tiles;
-    float near_size;
-    float rounding;
-    float reach;
+    uint tiles;           // cells along a side of a face, without border
+    float near_size;      // half side of the near region, metres
+    float rounding;       // bound of the shift by rounding between a triangle and a ray, metres
+    float reach;          // largest distance of the geometry from the centre along an axis, metres
 };
 
 PrimitiveGrid primitive_grid(PrimitiveRef s) {
@@ -42,15 +41,16 @@ PrimitiveGrid primitive_grid(PrimitiveRef s) {
         PRIMITIVE_HEADER(s).reach);
 }
 
-// Returns the reach of cells beyond their sides, in x/z, so that rounding moves no triangle out of a cell in
-// which a ray hits it.
+// Returns how far cells reach beyond their sides, in x/z, so that rounding does not move a triangle out of a
+// cell in which a ray hits it.
 float primitive_margin(PrimitiveGrid grid, vec3 a, vec3 b, vec3 c) {
     float nearest = max(min(a.z, min(b.z, c.z)), grid.near_size);
     precise float margin = grid.rounding / nearest + 1.0e-6;
     return margin;
 }
 
-// True if a triangle reaches into a cell of a face, with its depths there. a, b, c are in face space.
+// True if a triangle reaches into a cell of a face. `depths` gets its depths there. a, b, c are in face
+// space.
 bool primitive_overlap(PrimitiveGrid grid, vec3 a, vec3 b, vec3 c, ivec2 cell, out vec2 depths) {
     precise float half_side = 1.0 / float(grid.tiles) + primitive_margin(grid, a, b, c);
     return overlap_at(grid.near_size, overlap_begin(a, b, c), coverage_center(cell, grid.tiles), half_side, depths);

@@ -1,5 +1,6 @@
-// Place of the pyramid of primitive lists: behind the bounds of the cells.
-// Reads: bounds, header. Writes: bounds, of blocks.
+// The pyramid of primitive lists (ads/pyramid.glsl). It lies behind the bounds of the cells, in the same
+// pool.
+// Reads: bounds, header. Writes: bounds of blocks.
 // Source: DIRT section 4.1.1, mipmap depth.
 #ifndef PRIMITIVE_PYRAMID_GLSL
 #define PRIMITIVE_PYRAMID_GLSL

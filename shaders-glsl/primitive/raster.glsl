@@ -1,6 +1,7 @@
-// The fragment's side of the raster builder: one instance per face, triangles pulled from the geometry.
+// What the fragment shaders of the raster builder share.
 // Reads: geometry, header. Writes: nothing.
-// Without attachments no layers are needed: the face travels as a varying.
+// Each draw has one instance per face. The builder has no attachments and thus no layers: the number of the
+// face is a varying.
 #ifndef PRIMITIVE_RASTER_GLSL
 #define PRIMITIVE_RASTER_GLSL
 
@@ -8,7 +9,8 @@
 #include "primitive/names.glsl"
 #include "ads/build_constants.glsl"
 
-// Finds the cell of a fragment and the triangle's depths there; false if the triangle is not listed.
+// Finds the cell of a fragment, and the triangle's depths there. Returns false if the cell does not list the
+// triangle.
 bool primitive_fragment(uint primitive, uint face, vec4 frag_coord, out uint cell, out vec2 depths) {
     PrimitiveGrid grid = primitive_grid(build.structure);
     ivec2 place = ivec2(frag_coord.xy) - 1;
@@ -18,7 +20,8 @@ bool primitive_fragment(uint primitive, uint face, vec4 frag_coord, out uint cel
     vec3 c;
     primitive_face_vertices(build.structure, primitive, face, a, b, c);
     if (PRIMITIVE_COVERAGE == PRIMITIVE_COVERAGE_HARDWARE) {
-        // With coverage by the rasterizer, a triangle that covers no centre is in no list.
+        // With this coverage a triangle is also listed where the test above fails, and a triangle that covers
+        // no centre is in no list.
         if (!primitive_overlap(grid, a, b, c, place, depths)) {
             depths = vec2(1.0 / frag_coord.w);
         }

@@ -1,26 +1,27 @@
-// Searches the lists of one cell, bucket by bucket in the order of the ray.
+// Searches the lists of one cell, bucket by bucket in the order in which the ray reaches them.
 // Reads: bounds, lists, entries, geometry. Writes: header.corrupted.
-// Source: DIRT section 4.2.1. Buckets behind the best hit are skipped, never those before it: a triangle
-// is in every bucket that it reaches into, so the first bucket with a hit need not hold the nearest.
-// With PRIMITIVE_STOP_BUCKET, the paper's rule, it ends the search of the tile.
+// Source: DIRT section 4.2.1. A triangle is in every bucket that it reaches into, so the first bucket with a
+// hit need not hold the nearest hit. The search therefore goes on until buckets are behind the best hit. With
+// PRIMITIVE_STOP_BUCKET, the paper's rule, it ends after the first bucket with a hit.
 #ifndef PRIMITIVE_SEARCH_GLSL
 #define PRIMITIVE_SEARCH_GLSL
 
 #include "primitive/rules.glsl"
 
-// Search of a cell, which can stop between two entries.
+// The search of a cell. It can pause between two entries.
 struct PrimitiveSearch {
-    uint cell;
-    float t_low;          // the ray's interval in the cell, widened by the errors of its ends
-    float t_high;
-    bool begun;           // `bucket` is the one to go on with
-    bool in_list;         // its list has been begun
-    bool found;           // the best hit is one of this bucket
-    uint bucket;
-    PrimitiveCursor list;
+    uint cell;            // index of the cell among the cells of all faces
+    float t_low;          // t at which the ray enters the cell, lowered by the bound of its error
+    float t_high;         // t at which the ray leaves the cell, raised by the bound of its error
+    bool begun;           // true once `bucket` is valid
+    bool in_list;         // true once the list of the bucket has been begun
+    bool found;           // true if the best hit was found in this bucket
+    uint bucket;          // bucket that is searched
+    PrimitiveCursor list;  // position in the list of the bucket
 };
 
-// Returns the depths of the ray between two t, widened by its rounding and by `rounding` of the triangles.
+// Returns the depths of the ray between two t, widened by the rounding of the ray and by `rounding` for that
+// of triangles.
 vec2 primitive_ray_depths(float origin_z, float direction_z, float t_low, float t_high, float rounding) {
     float low = origin_z + t_low * direction_z;
     float high = origin_z + t_high * direction_z;
@@ -28,8 +29,8 @@ vec2 primitive_ray_depths(float origin_z, float direction_z, float t_low, float 
     return vec2(min(low, high) - error, max(low, high) + error);
 }
 
-// Searches a cell. Returns true if the work budget ended before the search did. `slack` bounds the error of a
-// t.
+// Searches a cell. Returns true if the work budget was spent before the end of the search. `slack` bounds the
+// error of the t of a hit.
 bool primitive_search(PrimitiveRef s, Ray ray, PrimitiveTile tile, float slack, bool any_hit, inout PrimitiveSearch search,
     inout TraceState state, inout uint work) {
     float origin_z = tile.origin.z;

@@ -1,21 +1,22 @@
-// The largest block of tiles that a ray can skip, because none of them lists a triangle at the ray's depths.
+// Finds the largest block of tiles that a ray can skip because none of them lists a triangle at the ray's
+// depths.
 // Reads: bounds. Writes: nothing.
-// Source: DIRT section 4.2.1, Hi-Z tracing. Levels are tried from the finest up, since a ray that was among
-// triangles is likely to be so still; or from the coarsest down, as the paper begins.
+// Source: DIRT section 4.2.1, Hi-Z tracing. Levels of the pyramid are tried from the finest up, since a ray
+// that was among triangles probably still is; or from the coarsest down, as in the paper.
 #ifndef PRIMITIVE_SKIP_GLSL
 #define PRIMITIVE_SKIP_GLSL
 
 #include "primitive/pyramid.glsl"
 #include "primitive/traversal.glsl"
 
-// Returns the level at which the search for a block starts. A face has at most 14 levels.
+// Returns the level of the pyramid at which the search for a block begins. A face has at most 14 levels.
 PyramidLevel primitive_skip_from(PrimitiveRef s) {
     PyramidLevel first = primitive_pyramid_first(s, 0u);
     return PRIMITIVE_PYRAMID == PRIMITIVE_PYRAMID_COARSEST ? pyramid_top(first) : first;
 }
 
-// Finds the largest block around the traversal's cell that lists nothing at the ray's depths; false if there
-// is none.
+// Finds the largest block that contains the ray's cell and lists nothing at the ray's depths. Returns false
+// if there is none.
 bool primitive_skip(PrimitiveRef s, PrimitiveTraversal traversal, PyramidLevel level, out MarchSkip skip) {
     float rounding = PRIMITIVE_HEADER(s).rounding;
     bool descends = PRIMITIVE_PYRAMID == PRIMITIVE_PYRAMID_COARSEST;
@@ -30,8 +31,8 @@ bool primitive_skip(PrimitiveRef s, PrimitiveTraversal traversal, PyramidLevel l
             skip = over;
             found = true;
         }
-        // Blocks around one that holds something also hold it, and blocks within one that can be skipped can
-        // be skipped as well.
+        // A block that contains a block which cannot be skipped cannot be skipped either. A block within a
+        // block that can be skipped can be skipped, too.
         if (is_left_out == descends || level.level == 1u && descends || level.side == 1u && !descends) {
             break;
         }
@@ -40,7 +41,7 @@ bool primitive_skip(PrimitiveRef s, PrimitiveTraversal traversal, PyramidLevel l
     return found;
 }
 
-// Skips a block; false at the end of the segment.
+// Skips a block; returns false if the segment ends in it.
 bool primitive_take_skip(PrimitiveRef s, inout PrimitiveTraversal traversal, MarchSkip skip) {
     bool more = PRIMITIVE_MARCH == PRIMITIVE_MARCH_JUMP ? primitive_jump(s, traversal.cells, skip)
         : march_take_skip(traversal.cells, skip);

@@ -1,4 +1,4 @@
-// The surface at a hit of primitive lists: a triangle with barycentrics.
+// Finds the surface at a hit. Hits are on triangles, with barycentrics.
 // Reads: the scene. Writes: nothing.
 #ifndef PRIMITIVE_SURFACE_GLSL
 #define PRIMITIVE_SURFACE_GLSL

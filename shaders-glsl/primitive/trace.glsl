@@ -1,8 +1,8 @@
-// Follows a ray through the faces' cells and tests the triangles that each cell lists.
+// Marches a ray through the cells of the faces, and tests the triangles that each cell lists.
 // Reads: all pools, geometry. Writes: header.corrupted.
-// Source: DIRT section 3.3; the exact march replaces its steps in screen space.
-// Cells only propose triangles. A hit counts by its t, so the traversal goes on until the next cell begins
-// behind the best hit, and what is visited beyond that or twice costs time, never a hit.
+// Source: DIRT section 3.3; an exact march replaces the paper's steps in screen space.
+// Cells only propose triangles. A hit counts by its t, so the march goes on until the next cell begins behind
+// the best hit. Cells that are visited beyond that, or twice, cost time but change no hit.
 #ifndef PRIMITIVE_TRACE_GLSL
 #define PRIMITIVE_TRACE_GLSL
 
@@ -17,8 +17,8 @@
 #define LISTED_NEAR(s) PRIMITIVE_POOL(s, near)
 #include "ads/listed.glsl"
 
-// Searches the cells of one face. Returns true if the budget ended first; sets `ended` if no hit behind can
-// count.
+// Searches the cells of one segment. Returns true if the work budget was spent before the end. Sets `ended`
+// if all further cells are behind the best hit.
 bool primitive_trace_cells(PrimitiveRef s, Ray ray, float slack, bool any_hit, inout PrimitiveTraversal traversal,
     inout TraceState state,
     inout uint work, out bool ended) {
@@ -44,7 +44,8 @@ bool primitive_trace_cells(PrimitiveRef s, Ray ray, float slack, bool any_hit, i
             trace_log_visit(STEP_CELL, traversal.segment.face, uint(traversal.searched.x), uint(traversal.searched.y),
                 traversal.search.t_low, traversal.search.t_high);
             MarchSkip skip;
-            // Anything touched outside a cell lies within the bounds of its block.
+            // The bounds of a block also hold those of cells around it, so neighbours that the ray touches
+            // need not be looked at.
             if (PRIMITIVE_PYRAMID != PRIMITIVE_PYRAMID_OFF && all(equal(traversal.searched, traversal.cells.cell))
                 && primitive_skip(s, traversal, skip_from, skip)) {
                 trace_log(STEP_SKIP, SKIP_OUTSIDE, 0u, 0u, traversal.search.t_low, skip.t_out);
@@ -65,7 +66,8 @@ bool primitive_trace_cells(PrimitiveRef s, Ray ray, float slack, bool any_hit, i
     return false;
 }
 
-// True if a face has tiles: with the camera's view alone, rays pass everything outside it.
+// True if a face has tiles, or if triangles are tested one by one. If the only view is the camera's, rays
+// pass through everything outside of it.
 bool primitive_is_drawn(uint face) {
     return face >= SEGMENT_NEAR || face < primitive_view_count();
 }
@@ -78,7 +80,7 @@ uint primitive_trace(PrimitiveRef s, Ray ray, inout TraceState state, bool any_h
     float slack = hit_slack(origin, direction, reach);
     bool distant = largest_coordinate(origin) > ORIGIN_LIMIT * reach;
     if (PRIMITIVE_VIEWS == PRIMITIVE_VIEWS_CAMERA) {
-        // The rounding of metres counts as well.
+        // Rounding of positions in metres counts as well as rounding in the space of the view.
         float metres = box_reach(geometry_header.lower - PRIMITIVE_HEADER(s).centre,
             geometry_header.upper - PRIMITIVE_HEADER(s).centre);
         slack = max(slack, hit_slack(from_centre, ray.direction, metres));
@@ -96,7 +98,7 @@ uint primitive_trace(PrimitiveRef s, Ray ray, inout TraceState state, bool any_h
     }
     for (uint segments = 0u; segments < SEGMENT_LIMIT; segments++) {
         if (!restored) {
-            // Nothing behind the best hit can be nearer.
+            // No hit behind the best hit is nearer than it.
             if (!(t < clip.y) || t > state.best.t + slack) {
                 trace_log(STEP_SKIP, t < clip.y ? SKIP_BEHIND : SKIP_BOUNDS, 0u, 0u, t, clip.y);
                 break;

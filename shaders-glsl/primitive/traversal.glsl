@@ -1,7 +1,8 @@
-// The position of a ray's traversal through the cells, and how it is saved between two dispatches.
+// The state of a ray's traversal, and how it is stored in the cursor of a paused ray.
 // Reads: header. Writes: nothing.
-// cursor: 0 flags, 1 and 2 ends of the segment, 3 cell, 4 and 5 entry and its error, 6 entry of the list,
-// 7 the cell being searched, or the place in the triangles that are tested one by one.
+// Words of the cursor: 0 flags; 1 and 2 the ends of the segment; 3 the cell of the march; 4 and 5 t of its
+// entry and the bound of its error; 6 the position in the list; 7 the cell that is searched, or the place
+// among the triangles that are tested one by one.
 #ifndef PRIMITIVE_TRAVERSAL_GLSL
 #define PRIMITIVE_TRAVERSAL_GLSL
 
@@ -10,7 +11,7 @@
 #include "primitive/jump.glsl"
 #include "primitive/search.glsl"
 
-// Fields of the flags.
+// Fields of the flags in word 0 of the cursor (contract/bits.glsl).
 #define PRIMITIVE_CURSOR_STARTED 0, 1
 #define PRIMITIVE_CURSOR_SEARCHING 1, 1
 #define PRIMITIVE_CURSOR_FACE 2, 3
@@ -19,16 +20,16 @@
 #define PRIMITIVE_CURSOR_FOUND 15, 1
 #define PRIMITIVE_CURSOR_BUCKET 16, 6
 
-// Traversal of a ray within one face, within the near region, or among all triangles.
+// The traversal of a ray along one segment: within a face, within the near region, or among all triangles.
 struct PrimitiveTraversal {
-    Segment segment;
-    vec3 origin;          // face space
-    vec3 direction;
-    CellMarch cells;
-    uint place;           // in the triangles that are tested one by one
-    ivec2 searched;       // the cell being searched
-    bool searching;       // its search has been begun
-    PrimitiveSearch search;
+    Segment segment;      // the segment, and where it lies
+    vec3 origin;          // origin of the ray in face space, metres from the centre
+    vec3 direction;       // direction of the ray in face space
+    CellMarch cells;      // march through the cells of the face
+    uint place;           // place among the triangles that are tested one by one
+    ivec2 searched;       // cell that is searched: the cell of the march, or a neighbour of it
+    bool searching;       // true once its search has begun
+    PrimitiveSearch search;  // search of the cell
 };
 
 bool primitive_traverses_cells(PrimitiveTraversal traversal) {
@@ -65,7 +66,7 @@ void primitive_begin_search(PrimitiveRef s, inout PrimitiveTraversal traversal) 
     traversal.search.cell = cell_index(traversal.segment.face, traversal.searched, PRIMITIVE_HEADER(s).tiles);
 }
 
-// Goes to the next cell; false at the end of the segment.
+// Goes to the next cell; returns false if there is none in the segment.
 bool primitive_next_cell(PrimitiveRef s, inout PrimitiveTraversal traversal) {
     traversal.searching = false;
     traversal.search.begun = false;

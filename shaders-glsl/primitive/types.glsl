@@ -1,7 +1,7 @@
 // The records and options of primitive lists.
 // Reads, writes: nothing.
 // Source: Vardis, Vasilakis, Papaioannou 2016 (DIRT), section 3.1: ids of triangles in lists per tile and
-// depth bucket.
+// depth bucket. A tile is a cell of a face.
 #ifndef PRIMITIVE_TYPES_GLSL
 #define PRIMITIVE_TYPES_GLSL
 
@@ -14,7 +14,7 @@ layout(constant_id = 31) const uint PRIMITIVE_STORAGE = PRIMITIVE_STORAGE_CONTIG
 layout(constant_id = 32) const uint PRIMITIVE_COVERAGE = PRIMITIVE_COVERAGE_CONSERVATIVE;
 layout(constant_id = 33) const uint PRIMITIVE_SKIP = 1u;
 layout(constant_id = 34) const uint PRIMITIVE_PYRAMID = PRIMITIVE_PYRAMID_OFF;
-// Options with a second value that is the paper's and loses hits.
+// Options that have the paper's rule as second value. That rule loses hits.
 layout(constant_id = 35) const uint PRIMITIVE_ACCEPT = PRIMITIVE_ACCEPT_T;
 layout(constant_id = 36) const uint PRIMITIVE_STOP = PRIMITIVE_STOP_BEST;
 layout(constant_id = 37) const uint PRIMITIVE_DEPTHS = PRIMITIVE_DEPTHS_CLIPPED;
@@ -22,48 +22,55 @@ layout(constant_id = 38) const uint PRIMITIVE_MARCH = PRIMITIVE_MARCH_EXACT;
 layout(constant_id = 39) const uint PRIMITIVE_CENTRE = PRIMITIVE_CENTRE_SCENE;
 layout(constant_id = 110) const uint PRIMITIVE_VIEWS = PRIMITIVE_VIEWS_CUBE;
 
-// Views with tiles: faces of the cube, or the camera's view, which is face 0 of a space of its own.
+// Returns the number of views with tiles: the faces of the cube, or the camera's view, which is face 0 of a
+// space of its own.
 uint primitive_view_count() {
     return PRIMITIVE_VIEWS == PRIMITIVE_VIEWS_CAMERA ? 1u : 6u;
 }
 
-// State and sizes of primitive lists. Shared, 196 bytes.
+// State and sizes of primitive lists. Lengths in the space of the faces are metres, unless the only view is
+// the camera's, whose space is scaled. Shared, 196 bytes.
 struct PrimitiveHeader {
     uint status;          // STATUS_*; without STATUS_COMPLETE traces answer "not ready"
-    uint demand;          // entries of all lists, also those beyond the capacity
-    uint capacity;        // entries the pool holds
+    uint demand;          // entries of all lists, including those beyond the capacity
+    uint capacity;        // entries that the pool holds
     uint near_demand;     // triangles that intersect the near region
     uint near_capacity;   // triangles that the near-region list holds
-    uint corrupted;       // list entries with an invalid index
-    uint tiles;           // cells along a side of a face, border not counted
+    uint corrupted;       // invalid indices met in lists
+    uint tiles;           // cells along a side of a face, without border
     uint tile;            // pixels along a side of a cell
-    float reach;          // metres: largest distance of the geometry from the centre along an axis, as views see it
-    float near_size;      // metres: half side of the near region
-    float rounding;       // metres: bound of how far rounding moves a triangle against a ray
-    vec3 eye;             // metres relative to the frame origin
-    vec3 centre;          // metres relative to the frame origin: centre of the faces
-    vec3 lower;           // lower corner of the geometry relative to the centre, metres
-    vec3 upper;           // upper corner of the geometry relative to the centre, metres
-    uvec2 bounds_address; // device address of the bounds; zero with descriptors, as all that follow
+    // largest distance of the geometry from the centre along an axis, in the space of the faces
+    float reach;
+    float near_size;      // half side of the near region, in the space of the faces
+    // bound of the shift by rounding between a triangle and a ray, in the space of the faces
+    float rounding;
+    vec3 eye;             // the eye, metres relative to the frame origin
+    vec3 centre;          // centre of the faces, metres relative to the frame origin
+    vec3 lower;           // lower corner of the geometry relative to the centre, in the space of the faces
+    vec3 upper;           // upper corner of the geometry relative to the centre, in the space of the faces
+    uvec2 bounds_address; // device address of the bounds; zero with descriptors, as the other addresses
     uvec2 lists_address;  // device address of the lists
     uvec2 entries_address; // device address of the entries
     uvec2 sums_address;   // device address of the sums of the scan
     uvec2 near_address;   // device address of the near-region list
     uvec2 large_address;  // device address of the large-triangle queue
     uint large_capacity;   // words that the large-triangle queue holds
-    // entries of the large-triangle queue: a triangle and a face of which it may reach into many columns
+    // entries that the large-triangle queue needs: a triangle in a face in which it may reach into too many
+    // cells
     uint large_demand;
-    uint groups[3];       // workgroups for those entries
-    vec3 camera_x;        // with the camera's view alone: how a metre along x is seen, depth first
-    vec3 camera_y;        // the same along y
-    vec3 camera_z;        // the same along z
+    uint groups[3];       // workgroups of the passes that take the queue
+    // first column of the transformation into the camera's view, whose x is depth; used only if that is the
+    // only view
+    vec3 camera_x;
+    vec3 camera_y;        // second column
+    vec3 camera_z;        // third column
 };
 
 // Depths of the triangles that a cell lists.
 struct PrimitiveBounds {
-    bool empty;
-    float z_min;
-    float z_max;
+    bool empty;           // true if the cell lists no triangle
+    float z_min;          // smallest depth, metres
+    float z_max;          // largest depth, metres
     float scale;          // buckets per metre
 };
 

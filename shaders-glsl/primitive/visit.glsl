@@ -1,13 +1,14 @@
-// Work of the build on a triangle in a cell, the same for every builder: it widens the cell's
-// bounds, counts, or stores.
-// Reads: bounds. Writes: bounds, or lists and entries.
+// What the build does with a triangle in a cell, for all builders: it counts the triangle in the cell's
+// lists, or stores it in them.
+// Reads: bounds. Writes: lists, entries; header.demand if lists are linked.
 // Source: DIRT section 3.2, fill depth and fill primitives.
 #ifndef PRIMITIVE_VISIT_GLSL
 #define PRIMITIVE_VISIT_GLSL
 
 #include "primitive/lists.glsl"
 
-// Returns the buckets that hold any of `depths`. Bounds come from the same function, and bucket_of clamps.
+// Returns the first and the last bucket at the depths of a triangle. Depths beyond the bounds of the cell
+// count as in the first or the last bucket.
 uvec2 primitive_buckets(PrimitiveBounds bounds, vec2 depths) {
     return uvec2(bucket_of(depths.x, bounds.z_min, bounds.scale, PRIMITIVE_BUCKETS),
         bucket_of(depths.y, bounds.z_min, bounds.scale, PRIMITIVE_BUCKETS));

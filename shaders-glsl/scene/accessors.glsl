@@ -1,7 +1,8 @@
-// The scene tables: the only storage buffers of shading, and the functions that read them.
-// Reads: set SCENE_SET, bindings 0 to 14. Writes: nothing. Source: docs/shading.md, "Tables".
-// Indices come from tables that were validated when they were packed; ids that come from a
-// structure are checked here, so that a corrupt hit cannot read out of bounds.
+// Declares the scene tables, which are the only storage buffers of shading, and the functions that read them.
+// Reads: set SCENE_SET, bindings 0 to 14. Writes: nothing.
+// Source: docs/shading.md, "Tables".
+// Indices in these tables were validated when the tables were packed. Ids that come from a structure are
+// checked here, so that a corrupt hit cannot read out of bounds.
 #ifndef SCENE_ACCESSORS_GLSL
 #define SCENE_ACCESSORS_GLSL
 
@@ -32,6 +33,7 @@ Frame scene_frame() { return scene_frame_table; }
 uint random_seed() { return scene_frame_table.seed; }
 uint random_sampler() { return scene_frame_table.sampling; }
 
+// Returns the draw of a triangle with this id; draw 0 for an id that is out of range.
 uint scene_draw_of(uint primitive) {
     return primitive < scene_frame_table.triangle_count ? scene_triangle_draw_table[primitive] : 0u;
 }
@@ -53,14 +55,14 @@ vec3 scene_material_specular_color(uint material) {
     return material == MATERIAL_NONE ? vec3(1.0) : scene_material_table[material].specular_color;
 }
 
-// Returns the word of the material's table of the losses of rough glass, or ATTRIBUTE_NONE.
+// Returns the word at which a material's table of the losses of rough glass begins, or ATTRIBUTE_NONE.
 uint scene_material_albedo(uint material) {
     return material == MATERIAL_NONE ? ATTRIBUTE_NONE : scene_material_table[material].albedo;
 }
 
 Texture scene_texture(uint texture_index) { return scene_texture_table[texture_index]; }
-// Returns the bits of a texel. Texels are numbered over all runs: if one buffer would exceed the limit of a
-// binding, runs of equal length lie in a buffer each.
+// Returns the bits of a texel. Texels are numbered over all runs. If all texels would exceed the limit of one
+// binding, they lie in several buffers, as runs of equal length.
 uint scene_texel_bits(uint texel) {
     if (!SHADING_TEXEL_RUNS) return scene_texel_run_0[texel];
     uint shift = scene_frame_table.texel_shift;
@@ -71,7 +73,7 @@ uint scene_texel_bits(uint texel) {
     if (run == 2u) return scene_texel_run_2[place];
     return scene_texel_run_3[place];
 }
-// Returns RGBA in [0, 1] as stored, without decoding.
+// Returns the RGBA of a texel in [0, 1] as stored, without decoding.
 vec4 scene_texel(uint texel) {
     uint bits = scene_texel_bits(texel);
     return vec4(bits & 255u, (bits >> 8) & 255u, (bits >> 16) & 255u, bits >> 24) * (1.0 / 255.0);
@@ -87,8 +89,8 @@ vec3 scene_environment_texel(uint texel) {
     return vec3(scene_environment_table[word], scene_environment_table[word + 1u],
                 scene_environment_table[word + 2u]);
 }
-// Returns an entry of the distribution. Entries 0 to height - 1 are the cumulative shares of the rows,
-// followed by `width` entries per row: cumulative shares within that row.
+// Returns an entry of the environment's distribution. Entries 0 to height - 1 are the cumulative shares of
+// the rows. Behind them lie `width` entries for each row, the cumulative shares within that row.
 float scene_environment_cdf(uint entry) { return scene_environment_cdf_table[entry]; }
 
 #endif

@@ -1,9 +1,11 @@
-// Light that a rough surface of facets sends back in one scattering, as polynomials, and what becomes of the rest
-// after more than one.
-// Reads: nothing. Writes: nothing.
-// Source: docs/shading.md, "Energy"; Kulla and Conty, "Revisiting physically based shading at Imageworks", 2017.
-// The polynomials are fits to integrals of this GGX; crates/reference integrates again and tests their errors: 0.003 of
-// the loss; -0.004 to 0.009 of the part of Schlick's curve, whose excess only darkens what lies below it.
+// Light that a rough surface of facets reflects in one scattering, as polynomials, and what becomes of the
+// light that one scattering loses.
+// Reads, writes: nothing.
+// Source: docs/shading.md, "Energy"; Kulla and Conty, "Revisiting physically based shading at Imageworks",
+// 2017.
+// The polynomials are fits to integrals of the GGX lobe of scene/microfacet.glsl. crates/reference computes
+// these integrals again and tests the errors: 0.003 for the loss, and -0.004 to 0.009 for the part of
+// Schlick's curve, whose excess only darkens what lies below the facets.
 #ifndef SCENE_ALBEDO_GLSL
 #define SCENE_ALBEDO_GLSL
 
@@ -12,7 +14,8 @@
 // Mean of (1 - x)^5 over the hemisphere, weighted by the cosine x.
 #define ALBEDO_SCHLICK_MEAN (1.0 / 21.0)
 
-// Returns the share of the light lost by facets that absorb nothing, seen under `cosine`.
+// Returns the share of the light that facets lose in one scattering, if they absorb nothing and are seen
+// under `cosine`.
 float albedo_loss(float cosine, float alpha) {
     if (alpha < ALBEDO_LOSSLESS_ALPHA) return 0.0;
     float x = cosine / (cosine + alpha);
@@ -26,15 +29,15 @@ float albedo_loss(float cosine, float alpha) {
     return clamp((1.0 - x) * dot(p, vec4(1.0, alpha, squared, squared * alpha)), 0.0, 1.0);
 }
 
-// Returns the mean of the loss over the hemisphere, weighted by the cosine.
+// Returns the mean of this loss over the hemisphere, weighted by the cosine.
 float albedo_loss_mean(float alpha) {
     if (alpha < ALBEDO_LOSSLESS_ALPHA) return 0.0;
     float r = sqrt(alpha);
     return max(r * (0.0204 + r * (-0.4171 + r * (2.5315 + r * (-1.7591 + 0.2196 * r)))), 1.0e-4);
 }
 
-// Returns the share sent back by facets that reflect (1 - x)^5 under their own cosine x; `loss` is
-// albedo_loss.
+// Returns the share of the light that facets reflect in one scattering if each reflects (1 - x)^5, x being
+// its own cosine. `loss` is that of albedo_loss.
 float albedo_schlick(float cosine, float alpha, float loss) {
     float x = cosine / (cosine + alpha);
     float r = sqrt(alpha);
@@ -54,12 +57,14 @@ float albedo_schlick(float cosine, float alpha, float loss) {
     return clamp(squared * squared * rest * (1.0 - loss) + rough, 0.0, 1.0 - loss);
 }
 
+// Returns the mean of this share over the hemisphere, weighted by the cosine.
 float albedo_schlick_mean(float alpha) {
     float r = sqrt(alpha);
     return ALBEDO_SCHLICK_MEAN + r * (0.01992 + r * (-0.26779 + r * (0.31214 - 0.10745 * r)));
 }
 
-// Returns the share of the lost light that comes back if a facet reflects `facet` on average.
+// Returns the share of the lost light that leaves the surface in the end, if a facet reflects `facet` on
+// average.
 vec3 albedo_returned(vec3 facet, float loss_mean) {
     return facet * facet * (1.0 - loss_mean) / (1.0 - facet * loss_mean);
 }

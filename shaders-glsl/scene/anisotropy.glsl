@@ -1,4 +1,4 @@
-// The direction in which the facets of a surface are rougher, and how much rougher they are.
+// Finds the direction in which the facets of a surface are rougher, and how much rougher they are.
 // Reads: frame, geometry, draw shadings, attributes, materials, textures. Writes: nothing.
 // Source: docs/shading.md, "Anisotropy"; KHR_materials_anisotropy.
 #ifndef SCENE_ANISOTROPY_GLSL
@@ -7,10 +7,10 @@
 #include "ads/triangle.glsl"
 #include "scene/surface.glsl"
 
-// Returns the strength in [0, 1], and the direction along which the facets are rougher, not normalised. The
-// strength is 0 if facets are equally rough in all directions, if the triangle is not known, and if nothing
-// gives the direction of its tangents. The texture is that of level 0, since the mean of directions is not a
-// direction.
+// Returns the strength of the anisotropy in [0, 1]. `rougher` is the direction along which facets are
+// rougher, not normalised. The strength is 0 if facets are equally rough in all directions, if the triangle
+// is not known, or if nothing gives the direction of its tangents. The texture is read at level 0, since a
+// mean of directions is not a direction.
 float anisotropy_at(Surface s, out vec3 rougher) {
     rougher = vec3(0.0);
     if (s.primitive >= scene_frame().triangle_count) return 0.0;

@@ -1,5 +1,6 @@
-// Vertex attributes interpolated over a triangle, with defaults where a draw has none.
-// Reads: posed attributes, vertex attributes. Writes: nothing. Source: docs/shading.md, "Tables".
+// Vertex attributes interpolated over a triangle, with defaults for attributes that a draw does not have.
+// Reads: posed attributes, vertex attributes. Writes: nothing.
+// Source: docs/shading.md, "Tables".
 #ifndef SCENE_ATTRIBUTES_GLSL
 #define SCENE_ATTRIBUTES_GLSL
 
@@ -25,7 +26,7 @@ vec4 attribute_color(DrawShading draw, uvec3 triangle, vec3 weights) {
          + weights.z * scene_vertex_vec4(words.z);
 }
 
-// Returns the normal, not normalised; zero if the draw is flat.
+// Returns the interpolated normal, which is not normalised; zero if the draw has no normals.
 vec3 attribute_normal(DrawShading draw, uvec3 triangle, vec3 weights) {
     if (draw.normals == ATTRIBUTE_NONE) return vec3(0.0);
     uvec3 words = draw.normals + 3u * (triangle - draw.first_vertex);
@@ -34,7 +35,8 @@ vec3 attribute_normal(DrawShading draw, uvec3 triangle, vec3 weights) {
          + weights.z * scene_posed_vec3(words.z);
 }
 
-// Returns the tangent: xyz not normalised, w the sign of the bitangent; zero if the draw has no tangents.
+// Returns the interpolated tangent: xyz is not normalised, w is the sign of the bitangent. Zero if the draw
+// has no tangents.
 vec4 attribute_tangent(DrawShading draw, uvec3 triangle, vec3 weights) {
     if (draw.tangents == ATTRIBUTE_NONE) return vec4(0.0);
     uvec3 words = draw.tangents + 4u * (triangle - draw.first_vertex);
@@ -45,7 +47,8 @@ vec4 attribute_tangent(DrawShading draw, uvec3 triangle, vec3 weights) {
     return vec4(tangent, first.w);
 }
 
-// Returns the base colour with alpha: factor times texture times vertex colour.
+// Returns the base colour with alpha: the factor of the material times the texel times the colour of the
+// vertices.
 vec4 attribute_base_color(DrawShading draw, Material material, uvec3 triangle, vec3 weights, vec4 texel) {
     return material.base_color * texel * attribute_color(draw, triangle, weights);
 }

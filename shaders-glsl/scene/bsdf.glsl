@@ -1,17 +1,22 @@
-// Scattering of a surface: value, density and sampling of its lobes.
+// Scattering at a surface: value, density and sampling of its lobes.
 // Reads: materials (specular colour only). Writes: nothing.
 // Source: docs/shading.md, "Reflection and transmission", "Energy"; glTF 2.0 appendix B.
+// In these functions o points to the previous vertex of the path, i to the light. A surface has two families
+// of lobes: facets, which reflect or refract once, and the cosine family, which is the diffuse base and the
+// light that leaves the facets after several scatterings.
 #ifndef SCENE_BSDF_GLSL
 #define SCENE_BSDF_GLSL
 
 #include "scene/bsdf_terms.glsl"
 
+// Scattering towards one direction.
 struct BsdfValue {
-    vec3 value;          // 1/sr, cosine included: families lie around different normals where one was bent
-    float pdf;           // 1/sr with which bsdf_sample answers this direction
+    // 1/sr, with the cosine:
+    vec3 value;          // the families may lie around different normals, so their cosines differ
+    float pdf;           // 1/sr: density with which bsdf_sample chooses this direction
 };
 
-// Returns the probability that a facet reflects the light that it does not absorb.
+// Returns the probability that a facet reflects, and does not transmit, the light that it does not absorb.
 float bsdf_reflect_probability(BsdfTerms terms, float cosine) {
     float reflected = luminance(bsdf_reflected(terms, cosine));
     float transmitted = luminance(bsdf_transmitted(terms, cosine));
@@ -24,8 +29,8 @@ vec3 bsdf_refraction_half(BsdfTerms terms, vec3 i) {
     return h.z < 0.0 ? -h : h;
 }
 
-// Returns 1 if i is reflected, -1 if transmitted, 0 if the normal of `cosine` and the geometric one disagree
-// or i grazes.
+// Returns the side on which i lies: 1 if light is reflected, -1 if it is transmitted, and 0 if i grazes or
+// lies on different sides of the geometric surface and of the normal to which `cosine` belongs.
 int bsdf_side(Surface s, vec3 world_i, float cosine) {
     float geometric = dot(s.geometric_normal, world_i);
     if (cosine > 0.0 && geometric > 0.0) return 1;
@@ -33,7 +38,7 @@ int bsdf_side(Surface s, vec3 world_i, float cosine) {
     return 0;
 }
 
-// Returns D(h) of the facets, 1/sr.
+// Returns the distribution D(h) of the facets' normals, 1/sr.
 float bsdf_distribution(BsdfTerms terms, vec3 h) {
     if (terms.anisotropic) return ggx_distribution(h, terms.alphas);
     return ggx_distribution(h, terms.alpha);
@@ -51,8 +56,9 @@ float bsdf_visibility_one(BsdfTerms terms) {
     return ggx_visibility_one(terms.o.z, terms.alpha);
 }
 
-// Evaluates scattering of the rough microfacet family towards local i: share of the value and density. The
-// share is per unit of reflected (x) or transmitted light at the facet, whose cosine is `facet_cosine`.
+// Evaluates the rough facets towards i, which is local. `value` is per unit of the light that a facet
+// reflects or transmits under `facet_cosine`; `pdf` is the density of i among the directions that facets
+// choose.
 void bsdf_facets(BsdfTerms terms, vec3 i, int side, out float facet_cosine, out float value, out float pdf) {
     facet_cosine = 0.0;
     value = 0.0;
@@ -76,7 +82,7 @@ void bsdf_facets(BsdfTerms terms, vec3 i, int side, out float facet_cosine, out 
     vec3 h = bsdf_refraction_half(terms, i);
     float cosine_o = dot(o, h);
     float cosine_i = dot(i, h);
-    // Both ends of a refraction lie on opposite sides of the facet.
+    // The two directions of a refraction lie on opposite sides of the facet.
     if (cosine_o <= 0.0 || cosine_i >= 0.0) return;
     float sum = terms.eta * cosine_o + cosine_i;
     float jacobian = -cosine_i / (sum * sum);
@@ -86,8 +92,8 @@ void bsdf_facets(BsdfTerms terms, vec3 i, int side, out float facet_cosine, out 
     pdf = distribution * bsdf_visibility_one(terms) * 4.0 * cosine_o * jacobian;
 }
 
-// Returns value and density towards i; o and i are unit and point away from the surface. Delta lobes are left
-// out.
+// Returns value and density towards i. o and i are unit vectors that point away from the surface. Delta lobes
+// are left out.
 BsdfValue bsdf_towards(BsdfTerms terms, Surface s, vec3 i) {
     BsdfValue result = BsdfValue(vec3(0.0), 0.0);
     vec3 local = i * terms.frame;
@@ -112,7 +118,7 @@ BsdfValue bsdf_towards(BsdfTerms terms, Surface s, vec3 i) {
     return result;
 }
 
-// Returns the value, 1/sr; the cosine at the shading normal is not included.
+// Returns the value, 1/sr, without the cosine at the shading normal.
 vec3 bsdf_evaluate(Surface s, vec3 o, vec3 i) {
     float cosine = abs(dot(s.normal, i));
     return cosine > 0.0 ? bsdf_towards(bsdf_terms(s, o), s, i).value / cosine : vec3(0.0);
@@ -121,7 +127,8 @@ vec3 bsdf_evaluate(Surface s, vec3 o, vec3 i) {
 // Returns the density, 1/sr, with which bsdf_sample chooses i.
 float bsdf_pdf(Surface s, vec3 o, vec3 i) { return bsdf_towards(bsdf_terms(s, o), s, i).pdf; }
 
-// Refracts o at the facet into i, or straight on through a thin wall. False beyond the critical angle.
+// Refracts o at a facet into i, or lets it go straight on through a thin wall. Returns false beyond the
+// critical angle.
 bool bsdf_refract(BsdfTerms terms, vec3 h, out vec3 i) {
     float cosine = dot(terms.o, h);
     if (terms.eta == 1.0) {
@@ -136,10 +143,10 @@ bool bsdf_refract(BsdfTerms terms, vec3 h, out vec3 i) {
     return true;
 }
 
-// Chooses a direction by one of the lobes; weight and pdf of a direction that is not a delta are those of
-// bsdf_chosen. The random numbers are for the lobe, the side, and two for the direction. flags 0: absorbed.
-// `terms` are of the surface and the direction from which it is seen, so that a caller with several uses
-// makes them once.
+// Chooses a direction by one of the lobes. Unless the direction is a delta, its weight and pdf are still to
+// be found by bsdf_chosen. The random numbers are for the lobe, for the side, and two for the direction. If
+// flags is 0, the light is absorbed. `terms` are those of the surface seen from the path's previous vertex; a
+// caller that uses them several times makes them once.
 BsdfSample bsdf_choose(BsdfTerms terms, Surface s, vec4 random) {
     BsdfSample chosen = BsdfSample(vec3(0.0, 0.0, 1.0), 0.0, vec3(0.0), 0u);
     if (terms.o.z <= 0.0) return chosen;
@@ -180,16 +187,17 @@ BsdfSample bsdf_choose(BsdfTerms terms, Surface s, vec4 random) {
         }
     }
     vec3 world = normalize(terms.frame * local);
-    // A facet can send light through the surface as a whole; the cosine family compensates for this loss.
+    // A facet can send light to the wrong side of the surface, where it is lost. The cosine family makes up
+    // for this loss.
     float cosine = random.x < family ? dot(local, terms.base) : local.z;
     if (bsdf_side(s, world, cosine) != expected) return chosen;
     return BsdfSample(world, 0.0, vec3(0.0), flags);
 }
 
-// True if a direction that was chosen still needs bsdf_chosen.
+// True if a direction was chosen whose weight and pdf bsdf_chosen still has to find.
 bool bsdf_is_open(BsdfSample chosen) { return chosen.flags != 0u && (chosen.flags & SAMPLE_DELTA) == 0u; }
 
-// Returns the sample of a direction that was chosen, from the sum of all lobes towards it.
+// Returns the sample of a chosen direction, from the sum `towards` of all lobes in that direction.
 BsdfSample bsdf_chosen(BsdfSample chosen, BsdfValue towards) {
     BsdfSample absorbed = BsdfSample(vec3(0.0, 0.0, 1.0), 0.0, vec3(0.0), 0u);
     if (!(towards.pdf > 0.0) || towards.pdf > 1.0e30) return absorbed;
@@ -198,7 +206,7 @@ BsdfSample bsdf_chosen(BsdfSample chosen, BsdfValue towards) {
     return BsdfSample(chosen.direction, towards.pdf, weight, chosen.flags);
 }
 
-// Chooses a direction and completes its sample.
+// Chooses a direction, and returns its complete sample.
 BsdfSample bsdf_sample(BsdfTerms terms, Surface s, vec4 random) {
     BsdfSample chosen = bsdf_choose(terms, s, random);
     if (!bsdf_is_open(chosen)) return chosen;

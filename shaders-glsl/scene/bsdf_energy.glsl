@@ -1,5 +1,5 @@
-// Light that one scattering at the facets loses, and what becomes of it: it is reflected or goes through after
-// several scatterings.
+// Light that one scattering at the facets loses, and what becomes of it: after several scatterings it is
+// reflected or goes through.
 // Reads: materials (table of rough glass), vertex attributes (that table). Writes: nothing.
 // Source: docs/shading.md, "Energy".
 #ifndef SCENE_BSDF_ENERGY_GLSL
@@ -9,7 +9,7 @@
 #include "scene/albedo.glsl"
 #include "scene/bsdf_facets.glsl"
 
-// Returns the mean reflectance of the dielectric's facets on the side of the smaller index.
+// Returns the mean reflectance of the dielectric's facets, seen from the side of the smaller index.
 vec3 bsdf_facet_mean(BsdfTerms terms) {
     return terms.f0 + (vec3(terms.f90) - terms.f0) * ALBEDO_SCHLICK_MEAN;
 }
@@ -27,13 +27,14 @@ float bsdf_entering(BsdfTerms terms, float cosine, float loss) {
 }
 
 // Returns the mean share of the light that the dielectric's facets let through, by its brightest channel.
-// From the side of the larger index it is smaller by the square of the ratio: beyond the critical angle
-// nothing goes through.
+// From the side of the larger index it is smaller by the square of the ratio of indices, because nothing goes
+// through beyond the critical angle.
 float bsdf_facet_through(BsdfTerms terms) {
     float through = 1.0 - largest_component(bsdf_facet_mean(terms));
     return terms.eta > 1.0 ? through / (terms.eta * terms.eta) : through;
 }
 
+// Returns the mean of bsdf_entering over the hemisphere, weighted by the cosine.
 float bsdf_entering_mean(BsdfTerms terms) {
     if (terms.eta > 1.0) {
         bool rough = terms.glass.first != ATTRIBUTE_NONE;
@@ -45,8 +46,8 @@ float bsdf_entering_mean(BsdfTerms terms) {
     return max(1.0 - once - terms.returned_most * terms.loss_mean, 1.0e-3);
 }
 
-// Sets the terms of light that one scattering at the boundary of a rough volume loses: it goes through as
-// facets let it, but no more than the loss of light on the way back.
+// Sets the terms of the light that one scattering at the boundary of a rough volume loses. As much of it goes
+// through as facets let through, but no more than is lost on the way back, so that scattering is reciprocal.
 void bsdf_set_glass(inout BsdfTerms terms, Surface s) {
     terms.glass = GlassRows(ATTRIBUTE_NONE, 0.0);
     terms.glass_side = s.side == 1u ? GLASS_LOST_FRONT : GLASS_LOST_BACK;
@@ -69,14 +70,14 @@ void bsdf_set_glass(inout BsdfTerms terms, Surface s) {
     float through = bsdf_facet_through(terms) * min(1.0, beyond / mean);
     vec3 facet = bsdf_facet_mean(terms);
     float most = largest_component(facet);
-    // Inside, what is reflected is mostly reflected in full.
+    // Inside a volume, most of the light that is reflected is reflected in full.
     vec3 tint = terms.eta < 1.0 && most > 0.0 ? facet / most : vec3(1.0);
     terms.glass_returned = tint * (share * (1.0 - through));
     terms.glass_passed = terms.base_color * (share * through);
 }
 
-// Sets the terms of light that one scattering loses outside volumes. Losses of the dielectric on the side of
-// the larger index count as let in.
+// Sets the terms of the light that one scattering loses outside of volumes. On the side of the larger index,
+// losses of the dielectric count as light that enters.
 void bsdf_set_energy(inout BsdfTerms terms) {
     terms.loss_o = albedo_loss(max(terms.o.z, 0.0), terms.alpha);
     terms.loss_mean = albedo_loss_mean(terms.alpha);
@@ -91,7 +92,7 @@ void bsdf_set_energy(inout BsdfTerms terms) {
     terms.entering_mean = bsdf_entering_mean(terms);
 }
 
-// Sets these terms of a material without facets, which lets everything in.
+// Sets the terms of bsdf_set_energy for a material without facets, which all light enters.
 void bsdf_set_no_facets(inout BsdfTerms terms) {
     terms.loss_o = 0.0;
     terms.loss_mean = 1.0;
@@ -102,8 +103,8 @@ void bsdf_set_no_facets(inout BsdfTerms terms) {
     terms.entering_mean = 1.0;
 }
 
-// Returns the light that left the boundary of a rough volume after several scatterings, 1/sr; arguments as
-// for bsdf_cosine_family.
+// Returns the light that leaves the boundary of a rough volume after several scatterings, 1/sr. Arguments are
+// as for bsdf_cosine_family.
 vec3 bsdf_glass(BsdfTerms terms, float cosine, int side) {
     if (!SHADING_TRANSMISSION || !(terms.glass_mean > 0.0)) return vec3(0.0);
     uint block = side > 0 ? terms.glass_side : GLASS_LOST_BACK - terms.glass_side;

@@ -1,7 +1,7 @@
-// Terms of scattering at one surface towards one direction: those of its facets, and the shares and
+// Makes the terms of scattering at a surface that is seen from one direction, and gives the shares and
 // probabilities of the cosine family.
-// Reads: materials (specular colour, table of rough glass), vertex attributes (that table); what scene/anisotropy.glsl
-// reads where facets are rougher along one direction. Writes: nothing.
+// Reads: materials (specular colour, table of rough glass), vertex attributes (that table); where facets are
+// rougher along one direction, what scene/anisotropy.glsl reads. Writes: nothing.
 // Source: docs/shading.md, "Reflection and transmission", "Energy"; glTF 2.0 appendix B.
 #ifndef SCENE_BSDF_TERMS_GLSL
 #define SCENE_BSDF_TERMS_GLSL
@@ -10,7 +10,7 @@
 #include "scene/bsdf_energy.glsl"
 #include "scene/ward.glsl"
 #ifdef BSDF_WITHOUT_TRIANGLES
-// Kernels whose surfaces are of no triangle bind none: nothing says where tangents point.
+// Kernels whose surfaces belong to no triangle bind no geometry, so nothing says where tangents point.
 float anisotropy_at(Surface s, out vec3 rougher) {
     rougher = vec3(0.0);
     return 0.0;
@@ -19,21 +19,25 @@ float anisotropy_at(Surface s, out vec3 rougher) {
 #include "scene/anisotropy.glsl"
 #endif
 
-// Bound of the probability of the cosine family if both families exist. The probability may exceed its share
-// of the light by this factor: near the horizon the family sends more than cosines tell.
+// Bounds of the probability of the cosine family, if both families exist. Its least value is the first
+// number, or the share of the light that the family sends times the second number if that is smaller: near
+// the horizon the family sends more than cosines tell. The third number is its largest value.
 #define BSDF_COSINE_LEAST 0.05
 #define BSDF_COSINE_FACTOR 4.0
 #define BSDF_COSINE_MOST 0.95
-// Cosine to which the facets' normal is bent if the shading normal faces away from o.
+// Cosine between o and the facets' normal, to which the normal is bent if the shading normal faces away from
+// o.
 #define BSDF_NORMAL_COSINE 0.01
-// Least height of a mirrored direction over the geometric surface: this, or this share of the height of o if
-// o itself grazes. It is less than 1, so that a normal that agrees with the surface keeps its bits.
+// Least height over the geometric surface of the direction mirrored by the facets' normal: the first number,
+// or the second number times the height of o if o itself grazes. The second number is less than 1, so that a
+// normal that agrees with the surface keeps its bits.
 #define BSDF_MIRRORED_HEIGHT 0.01
 #define BSDF_MIRRORED_SHARE 0.9
 
-// Returns the normal around which facets lie: the shading normal, bent until it faces o, and then just so far
-// that the mirror image of o leaves the geometric surface. The mirrored direction is lifted to the least
-// height, and the vector halfway between it and o mirrors one to the other.
+// Returns the normal around which facets lie. This is the shading normal, bent until it faces o, and then
+// bent just so far that the mirror image of o leaves the geometric surface. To bend it so far, the mirrored
+// direction is lifted to the least height; the vector halfway between o and the lifted direction is then the
+// normal that mirrors o to that direction.
 vec3 bsdf_facet_normal(Surface s, vec3 o) {
     vec3 normal = s.normal;
     float cosine = dot(normal, o);
@@ -49,8 +53,8 @@ vec3 bsdf_facet_normal(Surface s, vec3 o) {
     return normalize(o + lifted);
 }
 
-// Turns the frame so that facets are rougher along its x axis, and sets their roughness. Facets that are
-// smooth across this axis scatter without anisotropy.
+// Turns the frame so that facets are rougher along its x axis, and sets their roughness. Across that axis
+// facets have at least BSDF_SMOOTH_ROUGHNESS, so they are no mirrors.
 void bsdf_set_anisotropy(inout BsdfTerms terms, Surface s) {
     vec3 rougher;
     float strength = anisotropy_at(s, rougher);
@@ -69,9 +73,10 @@ void bsdf_set_anisotropy(inout BsdfTerms terms, Surface s) {
     terms.pane = false;
 }
 
+// Returns the terms of scattering at a surface, seen from the unit direction o.
 BsdfTerms bsdf_terms(Surface s, vec3 o) {
     BsdfTerms terms;
-    // glTF: an index of 0 stands for full reflection; such a surface does not bend light.
+    // In glTF an index of 0 stands for full reflection. Such a surface does not bend light.
     float ior = s.ior > 1.0e-3 ? s.ior : 1.0;
     float root = (max(s.ior, 0.0) - 1.0) / (max(s.ior, 0.0) + 1.0);
     terms.f0 = min(root * root * scene_material_specular_color(s.material), vec3(1.0)) * s.specular;
@@ -89,7 +94,7 @@ BsdfTerms bsdf_terms(Surface s, vec3 o) {
     terms.eta = straight ? 1.0 : (s.side == 1u ? 1.0 / ior : ior);
     terms.frame = basis_around(bsdf_facet_normal(s, o));
     if (SHADING_ANISOTROPY) bsdf_set_anisotropy(terms, s);
-    // Nothing compensates for the losses of Ward's lobe; the rest is as below a mirror.
+    // Nothing makes up for the losses of Ward's lobe. The base below the lobe is lit as below a mirror.
     if (terms.ward) terms.alpha = 0.0;
     terms.base = s.normal * terms.frame;
     terms.o = o * terms.frame;
@@ -99,13 +104,13 @@ BsdfTerms bsdf_terms(Surface s, vec3 o) {
     return terms;
 }
 
-// Returns the share of the diffuse base.
+// Returns the share of the surface that is its diffuse base.
 float bsdf_diffuse_share(BsdfTerms terms) {
     return (1.0 - terms.metallic) * (1.0 - terms.transmission);
 }
 
-// Returns the probability with which a path goes straight through a pane that lets `straight` of the light
-// through.
+// Returns the probability with which a path goes straight through a pane. The pane lets the share `straight`
+// of the light through.
 float bsdf_straight_probability(BsdfTerms terms, vec3 straight) {
     float through = luminance(straight);
     if (!(through > 0.0)) return 0.0;
@@ -114,8 +119,9 @@ float bsdf_straight_probability(BsdfTerms terms, vec3 straight) {
     return through / (through + rest);
 }
 
-// Returns the value of the cosine family, 1/sr: the diffuse base, and the light that left the facets after
-// several scatterings. `cosine` of the other direction is positive; `side` as for bsdf_side.
+// Returns the value of the cosine family, 1/sr: of the diffuse base, and of the light that leaves the facets
+// after several scatterings. `cosine` is that of the other direction and positive; `side` is as for
+// bsdf_side.
 vec3 bsdf_cosine_family(BsdfTerms terms, float cosine, int side) {
     if (!SHADING_FACETS) return side > 0 ? terms.base_color * (1.0 / MICROFACET_PI) : vec3(0.0);
     float loss = albedo_loss(cosine, terms.alpha);
@@ -128,7 +134,8 @@ vec3 bsdf_cosine_family(BsdfTerms terms, float cosine, int side) {
     return terms.returned * several + glass + terms.base_color * (share * through / MICROFACET_PI);
 }
 
-// Returns the probability of the cosine family, and within it of going through the surface.
+// Finds the probability of the cosine family, and within the family the probability of going through the
+// surface.
 void bsdf_cosine_probability(BsdfTerms terms, out float family, out float through) {
     if (!SHADING_FACETS) {
         family = luminance(terms.base_color) > 0.0 ? 1.0 : 0.0;

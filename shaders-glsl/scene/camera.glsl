@@ -1,5 +1,6 @@
-// Rays of a pixel.
-// Reads: frame. Writes: nothing. Source: docs/shading.md, "Functions" and "Lens".
+// Makes the camera rays of a pixel.
+// Reads: frame. Writes: nothing.
+// Source: docs/shading.md, "Functions" and "Lens".
 #ifndef SCENE_CAMERA_GLSL
 #define SCENE_CAMERA_GLSL
 
@@ -7,8 +8,8 @@
 #include "scene/microfacet.glsl"
 #include "scene/random.glsl"
 
-// Returns the ray through the centre of the lens. `pixel_position` is in pixels from the top left corner; the
-// centre of the first pixel is (0.5, 0.5).
+// Returns the ray through the centre of the lens. `pixel_position` is in pixels from the top left corner of
+// the image; the centre of the first pixel is (0.5, 0.5).
 Ray camera_ray(vec2 pixel_position) {
     Frame frame = scene_frame();
     float x = (2.0 * pixel_position.x / float(frame.width) - 1.0) * frame.half_width;
@@ -21,15 +22,16 @@ Ray camera_ray(vec2 pixel_position) {
                frame.cone_width * frame.footprint_scale, frame.cone_spread * frame.footprint_scale);
 }
 
-// Returns a position uniform within the pixel.
+// Returns a position for a sample, distributed uniformly over the pixel.
 vec2 camera_pixel_position(uint pixel, uint sample_index) {
     uint width = scene_frame().width;
     vec2 corner = vec2(pixel % width, pixel / width);
     return corner + random_place(pixel, sample_index, RANDOM_CAMERA_X);
 }
 
-// Returns the ray of a sample through a place of its own on the lens, uniform on the disk, as below
-// cosine-distributed directions. It meets `ray`, which goes through the centre, in the plane in focus.
+// Returns the ray of a sample through a place of its own on the lens. Places are distributed uniformly on a
+// disk, as are the projections of cosine-distributed directions. The ray meets `ray`, which goes through the
+// centre of the lens, in the plane in focus.
 Ray camera_through_lens(Ray ray, uint pixel, uint sample_index) {
     Frame frame = scene_frame();
     if (!(frame.lens_radius > 0.0)) return ray;

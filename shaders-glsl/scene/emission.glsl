@@ -1,13 +1,13 @@
 // Radiance that leaves a point of an emissive triangle, as a light sample sees it.
-// Reads: draw shadings, vertex attributes, materials, textures. Writes: nothing.
+// Reads: geometry, draw shadings, vertex attributes, materials, textures. Writes: nothing.
 // Source: docs/shading.md, "Surfaces" and "Lights".
 #ifndef SCENE_EMISSION_GLSL
 #define SCENE_EMISSION_GLSL
 
 #include "scene/alpha.glsl"
 
-// Returns the emitted radiance. `front` if it leaves from the counter-clockwise side of the mesh. Textures
-// are at level 0; masked parts emit nothing, blended parts in proportion to their opacity.
+// Returns the emitted radiance. `front` says that it leaves from the counter-clockwise side of the mesh.
+// Textures are read at level 0. Masked parts emit nothing, blended parts emit in proportion to their opacity.
 vec3 emission_at(DrawShading draw, uint primitive, vec2 barycentrics, bool front) {
     Material material = scene_material(draw.material);
     if (!front && (material.flags & MATERIAL_DOUBLE_SIDED) == 0u) return vec3(0.0);

@@ -1,4 +1,5 @@
-// Radiance from outside: constant, or a latitude-longitude map of constant texels, sampled by texel.
+// Radiance from the environment, and directions sampled by it. The environment is constant, or a
+// latitude-longitude map of constant texels, which is sampled by texel.
 // Reads: frame, environment radiance, environment distribution. Writes: nothing.
 // Source: docs/shading.md, "Lights".
 #ifndef SCENE_ENVIRONMENT_GLSL
@@ -12,28 +13,30 @@ bool environment_is_constant(Frame frame) {
     return !SHADING_ENVIRONMENT_MAP || frame.environment_kind == ENVIRONMENT_CONSTANT;
 }
 
+// Returns the column of the map in which a direction lies.
 uint environment_column(vec3 direction, uint width) {
     float turn = atan(direction.z, direction.x) / (2.0 * ENVIRONMENT_PI);
     return min(uint((turn < 0.0 ? turn + 1.0 : turn) * float(width)), width - 1u);
 }
 
+// Returns the row of the map in which a direction lies.
 uint environment_row(vec3 direction, uint height) {
     return min(uint(acos(clamp(direction.y, -1.0, 1.0)) / ENVIRONMENT_PI * float(height)), height - 1u);
 }
 
-// Returns the solid angle of a texel of the row, steradians.
+// Returns the solid angle of a texel in a row, steradians.
 float environment_solid_angle(uint row, uint width, uint height) {
     float step_angle = ENVIRONMENT_PI / float(height);
     return (2.0 * ENVIRONMENT_PI / float(width)) * 2.0 * sin(step_angle * (float(row) + 0.5)) * sin(0.5 * step_angle);
 }
 
-// Returns the share of entry `index` in a run of cumulative shares that starts at `first`.
+// Returns the share of entry `index` in a run of cumulative shares that begins at `first`.
 float environment_share(uint first, uint index) {
     float above = scene_environment_cdf(first + index);
     return index == 0u ? above : above - scene_environment_cdf(first + index - 1u);
 }
 
-// Returns the first entry of the run whose cumulative share exceeds `random`.
+// Returns the first entry of a run whose cumulative share exceeds `random`, as an index in the run.
 uint environment_search(uint first, uint count, float random) {
     uint low = 0u;
     uint high = count - 1u;
@@ -45,7 +48,7 @@ uint environment_search(uint first, uint count, float random) {
     return low;
 }
 
-// Returns the radiance, W/(sr m^2), that arrives against the unit `direction`.
+// Returns the radiance, W/(sr m^2), that arrives from the unit `direction`.
 vec3 environment_radiance(vec3 direction) {
     Frame frame = scene_frame();
     if (environment_is_constant(frame)) return frame.environment_radiance;
@@ -54,13 +57,16 @@ vec3 environment_radiance(vec3 direction) {
     return scene_environment_texel(row * frame.environment_width + column);
 }
 
-// Returns the density, 1/sr, of environment_sample alone, without the choice among the kinds of light.
+// Returns the density, 1/sr, with which environment_sample chooses directions in a texel. It leaves out the
+// choice among the kinds of light.
 float environment_pdf_of_texel(Frame frame, uint row, uint column) {
     float rows = environment_share(0u, row);
     float columns = environment_share(frame.environment_height + row * frame.environment_width, column);
     return rows * columns / environment_solid_angle(row, frame.environment_width, frame.environment_height);
 }
 
+// Returns the density, 1/sr, with which environment_sample chooses a direction. It leaves out the choice
+// among the kinds of light.
 float environment_pdf_alone(vec3 direction) {
     Frame frame = scene_frame();
     if (environment_is_constant(frame)) return 1.0 / (4.0 * ENVIRONMENT_PI);
@@ -68,8 +74,9 @@ float environment_pdf_alone(vec3 direction) {
                                     environment_column(direction, frame.environment_width));
 }
 
-// Chooses a direction, and returns its radiance and its pdf (without the choice among kinds). `pick` chooses
-// the row, `place.x` the column and the azimuth within it, `place.y` the polar angle within the row.
+// Chooses a direction, and returns it with its radiance and its pdf, which leaves out the choice among the
+// kinds of light. `pick` chooses the row, `place.x` the column and the azimuth in it, `place.y` the polar
+// angle in the row.
 vec3 environment_sample(float pick, vec2 place, out vec3 radiance, out float pdf) {
     Frame frame = scene_frame();
     float cosine;
@@ -86,7 +93,8 @@ vec3 environment_sample(float pick, vec2 place, out vec3 radiance, out float pdf
         uint first = height + row * width;
         uint column = environment_search(first, width, place.x);
         float share = environment_share(first, column);
-        // The place of the number within the texel's share gives the direction's place in the texel.
+        // The position of the random number within the texel's share gives the direction's position in the
+        // texel.
         float within = share > 0.0 ? (scene_environment_cdf(first + column) - place.x) / share : 0.5;
         azimuth = 2.0 * ENVIRONMENT_PI * (float(column) + clamp(within, 0.0, 1.0)) / float(width);
         float upper = cos(ENVIRONMENT_PI * float(row) / float(height));

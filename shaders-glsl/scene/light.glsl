@@ -1,4 +1,4 @@
-// Directions chosen by the lights, and the density with which they would choose a given one.
+// Chooses directions by the lights, and gives the density with which the lights would choose a direction.
 // Reads: frame, lights, emissive triangles, geometry, materials, textures, environment. Writes: nothing.
 // Source: docs/shading.md, "Lights"; KHR_lights_punctual for range and cone.
 #ifndef SCENE_LIGHT_GLSL
@@ -14,7 +14,7 @@ LightSample light_sample_none() {
     return LightSample(vec3(0.0, 0.0, 1.0), 0.0, vec3(0.0), 0.0, vec3(0.0), 0u, 0u);
 }
 
-// Returns the first punctual light whose cumulative share exceeds `random`.
+// Returns the first light without extent whose cumulative share exceeds `random`.
 uint light_search_punctual(uint count, float random) {
     uint low = 0u;
     uint high = count - 1u;
@@ -26,13 +26,14 @@ uint light_search_punctual(uint count, float random) {
     return low;
 }
 
-// Returns the share of its light that a light without extent sends as far as `distance`, beside the inverse
+// Returns the share of its light that a light with a range still sends at a distance, beside the inverse
 // square.
 float light_window(float distance, float range) {
     float ratio = distance / range;
     return clamp(1.0 - ratio * ratio * ratio * ratio, 0.0, 1.0);
 }
 
+// Chooses a light without extent by its share of their power.
 LightSample light_sample_punctual(Frame frame, vec3 from, float pick) {
     LightSample chosen = light_sample_none();
     uint index = light_search_punctual(frame.light_count, pick);
@@ -62,7 +63,7 @@ LightSample light_sample_punctual(Frame frame, vec3 from, float pick) {
     return chosen;
 }
 
-// Returns the first entry whose cumulative share exceeds `random`.
+// Returns the first emissive triangle whose cumulative share exceeds `random`.
 uint light_search_emissive(uint count, float random) {
     uint low = 0u;
     uint high = count - 1u;
@@ -74,18 +75,20 @@ uint light_search_emissive(uint count, float random) {
     return low;
 }
 
+// Returns the share of an emissive triangle in the power of all.
 float light_emissive_share(uint entry) {
     float above = scene_emissive_cumulative(entry);
     return entry == 0u ? above : above - scene_emissive_cumulative(entry - 1u);
 }
 
-// Returns the density, 1/sr, of a point uniform on a triangle, as seen along the unit `direction` from
-// `distance` away; 0 edge-on.
+// Returns the density, 1/sr, of a point that is uniform on a triangle, seen along the unit `direction` from
+// `distance` metres away; 0 if the triangle is seen edge-on.
 float light_area_pdf(vec3 normal, float twice_area, vec3 direction, float distance) {
     float projected = 0.5 * twice_area * abs(dot(normal, direction));
     return projected > 0.0 ? distance * distance / projected : 0.0;
 }
 
+// Chooses an emissive triangle by its share of their power, and a point that is uniform on the triangle.
 LightSample light_sample_emissive(Frame frame, vec3 from, float pick, vec2 place) {
     LightSample chosen = light_sample_none();
     uint entry = light_search_emissive(frame.emissive_count, pick);
@@ -119,8 +122,8 @@ LightSample light_sample_emissive(Frame frame, vec3 from, float pick, vec2 place
     return chosen;
 }
 
-// Chooses a direction from the surface to a light, with one random number for each of: kind, light or row,
-// place.
+// Chooses a direction from the surface to a light. The random numbers are for the kind of light, for the
+// light or the row of the environment, and two for the place.
 LightSample light_sample(Surface s, vec4 random) {
     Frame frame = scene_frame();
     vec3 shares = frame.kind_shares;
@@ -143,7 +146,7 @@ LightSample light_sample(Surface s, vec4 random) {
     return chosen;
 }
 
-// Returns the ray that tests whether the sample is visible from the surface.
+// Returns the shadow ray that tests whether the sample is visible from the surface.
 Ray light_shadow_ray(Surface s, LightSample chosen) {
     Ray ray;
     if (chosen.distance < LIGHT_INFINITY) ray = spawn_segment(s, chosen.target);
@@ -152,8 +155,8 @@ Ray light_shadow_ray(Surface s, LightSample chosen) {
     return ray;
 }
 
-// Returns the density, 1/sr, with which light_sample chooses `position` on `primitive` from `origin`; 0 if it
-// never does.
+// Returns the density, 1/sr, with which light_sample chooses `position` on triangle `primitive` from
+// `origin`; 0 if it never does.
 float light_pdf_emitter(uint primitive, vec3 origin, vec3 position) {
     Frame frame = scene_frame();
     if (!SHADING_EMITTERS || frame.emissive_count == 0u || primitive == PRIMITIVE_NONE) return 0.0;
@@ -171,7 +174,7 @@ float light_pdf_emitter(uint primitive, vec3 origin, vec3 position) {
     return light_emissive_share(entry) * density * frame.kind_shares.y;
 }
 
-// Returns the density, 1/sr, with which light_sample chooses the environment in `direction`.
+// Returns the density, 1/sr, with which light_sample chooses `direction` by the environment.
 float environment_pdf(vec3 direction) {
     Frame frame = scene_frame();
     if (frame.environment_sampled == 0u) return 0.0;

@@ -1,7 +1,8 @@
 // Building blocks of scattering, in a frame whose z axis is the shading normal.
-// Reads: nothing. Writes: nothing. Source: docs/shading.md, "Reflection and transmission"; Duff et al.,
-// "Building an orthonormal basis, revisited", JCGT 6(1), 2017; Walter et al. 2007 (GGX); Heitz 2014
-// (height-correlated masking); Dupuy and Benyoub 2023 (visible normals as a spherical cap).
+// Reads, writes: nothing.
+// Source: docs/shading.md, "Reflection and transmission"; Duff et al., "Building an orthonormal basis,
+// revisited", JCGT 6(1), 2017; Walter et al. 2007 (GGX); Heitz 2014 (height-correlated masking); Dupuy and
+// Benyoub 2023 (visible normals as a spherical cap).
 #ifndef SCENE_MICROFACET_GLSL
 #define SCENE_MICROFACET_GLSL
 
@@ -16,15 +17,15 @@ mat3 basis_around(vec3 normal) {
                 vec3(b, turn + normal.y * normal.y * a, -normal.y), normal);
 }
 
-// Returns a direction with density cosine / pi over the upper hemisphere.
+// Returns a direction over the upper hemisphere, with density cosine / pi.
 vec3 cosine_hemisphere(vec2 random) {
     float radius = sqrt(random.x);
     float azimuth = 2.0 * MICROFACET_PI * random.y;
     return vec3(radius * cos(azimuth), radius * sin(azimuth), sqrt(max(0.0, 1.0 - random.x)));
 }
 
-// Returns the GGX distribution of facet normals, 1/sr. It is written without 1 - z*z, which cancels for small
-// alpha.
+// Returns the GGX distribution of facet normals, 1/sr. The formula does without 1 - z*z, which cancels for
+// small alpha.
 float ggx_distribution(vec3 h, float alpha) {
     float slope = (h.x * h.x + h.y * h.y) / (alpha * alpha) + h.z * h.z;
     return 1.0 / (MICROFACET_PI * alpha * alpha * slope * slope);
@@ -44,7 +45,8 @@ float ggx_visibility_one(float cosine_o, float alpha) {
     return 0.5 / (cosine_o + ggx_root(cosine_o, alpha));
 }
 
-// Distribution for facets of another alpha along x than along y; o and i are directions, on either side.
+// The following overloads are for facets with one alpha along x and another one along y. o and i are
+// directions on either side of the surface.
 float ggx_distribution(vec3 h, vec2 alpha) {
     vec3 scaled = vec3(h.xy / alpha, h.z);
     float slope = dot(scaled, scaled);
@@ -63,8 +65,8 @@ float ggx_visibility_one(vec3 o, vec2 alpha) {
     return 0.5 / (abs(o.z) + ggx_root(o, alpha));
 }
 
-// Returns a facet normal visible from o; density G1(o) D(h) max(0, o.h) / cos o. There is one alpha for each
-// of x and y.
+// Returns a facet normal that is visible from o, with the density G1(o) D(h) max(0, o.h) / cos o. `alpha` is
+// that along x and that along y.
 vec3 ggx_visible_normal(vec3 o, vec2 alpha, vec2 random) {
     vec3 stretched = normalize(vec3(alpha * o.xy, o.z));
     float azimuth = 2.0 * MICROFACET_PI * random.x;
@@ -74,6 +76,7 @@ vec3 ggx_visible_normal(vec3 o, vec2 alpha, vec2 random) {
     return normalize(vec3(alpha * h.xy, max(h.z, 1.0e-7)));
 }
 
+// Returns (1 - cosine)^5 of Schlick's curve.
 float fresnel_power(float cosine) {
     float rest = clamp(1.0 - cosine, 0.0, 1.0);
     float squared = rest * rest;

@@ -1,11 +1,13 @@
-// The surface at a hit on the plane of a triangle, which may lie outside of the triangle by up to a cell.
-// Reads: the scene. Writes: nothing.
-// Barycentrics are taken to the triangle's nearest edge for shading, while the position stays on the ray.
+// Finds the surface at a hit on the plane of a triangle, which may lie outside of the triangle by up to a
+// cell.
+// Reads: geometry, the scene. Writes: nothing.
+// Such a hit is shaded as the nearest edge of the triangle, but its position stays on the ray.
 #ifndef SCENE_PLANE_SURFACE_GLSL
 #define SCENE_PLANE_SURFACE_GLSL
 
 #include "scene/surface.glsl"
 
+// Returns the surface at a hit whose barycentrics may lie outside of [0, 1].
 Surface plane_surface(Ray ray, Hit hit) {
     vec2 inside = max(vec2(hit.a, hit.b), vec2(0.0));
     inside /= max(inside.x + inside.y, 1.0);

@@ -1,7 +1,8 @@
-// Shares with which lights are chosen where those depend on the bounds: by the power of lights far away, which
-// falls on the circle around the bounds. One workgroup.
-// Reads: bounds in the header of the geometry, powers of lights. Writes: kind shares of the frame, cumulative shares of
-// lights. Source: docs/shading.md, "Tables": Lights, Kinds; docs/motion.md, "On the device".
+// Computes the shares with which lights are chosen, as far as they depend on the bounds of the geometry: the
+// power of lights far away falls on the circle around the bounds.
+// Reads: bounds in the header of the geometry, powers of lights. Writes: kind shares of the frame, cumulative
+// shares of lights. One workgroup.
+// Source: docs/shading.md, "Tables": Lights, Kinds; docs/motion.md, "On the device".
 #version 460
 #include "contract/extensions.glsl"
 
@@ -18,16 +19,16 @@ layout(set = 1, binding = 2, scalar) buffer PoseLightBuffer { Light pose_lights[
 // Lights and their powers. 20 bytes.
 layout(push_constant, scalar) uniform PoseLightConstants {
     uint light_count;       // point, directional and spot lights
-    uint emissive;          // 1 where emissive triangles have power
+    uint emissive;          // 1 if emissive triangles have power
     float emissive_power;   // W
-    uint environment;       // 1 where the environment emits
+    uint environment;       // 1 if the environment emits
     float irradiance;       // W/m^2, of the environment
 } pushed;
 
 #define POSE_PI 3.14159265
-// Least probability of an existing kind.
+// Least probability of a kind of light that exists.
 #define POSE_LEAST 0.1
-// Largest power, so that sums of three are finite.
+// Largest power, so that the sum of three powers is finite.
 #define POSE_MOST 1.0e38
 
 float pose_power(float power) {
@@ -58,7 +59,7 @@ void main() {
     vec3 shares = total > 0.0 ? power / total : vec3(1.0) / max(dot(vec3(present), vec3(1.0)), 1.0);
     vec3 weights = max(shares, POSE_LEAST) * vec3(present);
     shares = weights / max(weights.x + weights.y + weights.z, POSE_LEAST);
-    // The last kind takes the remainder of rounding, so that every random number chooses a kind.
+    // The last kind takes what rounding leaves over, so that every random number chooses a kind.
     if (present.z) shares.z = 1.0 - (shares.x + shares.y);
     else if (present.y) shares.y = 1.0 - shares.x;
     else if (present.x) shares.x = 1.0;

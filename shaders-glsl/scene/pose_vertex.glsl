@@ -1,5 +1,7 @@
-// A vertex of a draw that moves: its position, normal and tangent at rest, morphed, and its joints blended.
-// Reads: the buffers of scene/pose_vertices.comp, which are declared before. Writes: posed positions and attributes.
+// Poses one vertex of a draw that moves: its position, normal and tangent at rest, morphed, and the blend of
+// its joints.
+// Reads: the buffers that scene/pose_vertices.comp declares before it includes this file. Writes: posed
+// positions and attributes.
 // Source: docs/motion.md, "On the device"; Knuth's two-sum.
 #ifndef SCENE_POSE_VERTEX_GLSL
 #define SCENE_POSE_VERTEX_GLSL
@@ -25,9 +27,11 @@ void pose_store(uint word, vec3 value) {
     pose_attributes[word + 2u] = value.z;
 }
 
-// Sum that keeps the error of its rounding (Knuth's two-sum).
+// A sum that keeps the error of its rounding (Knuth's two-sum).
 struct PoseSum {
+    // rounded sum
     vec3 value;
+    // sum of the errors of rounding
     vec3 lost;
 };
 
@@ -39,8 +43,8 @@ void pose_add(inout PoseSum sum, vec3 term) {
     sum.lost += lost;
 }
 
-// Returns the vector at rest with the displacements of the shown targets: `kind` 0 positions, 1 normals, 2
-// tangents.
+// Returns a vector at rest with the displacements of the shown morph targets added. `kind` is 0 for
+// positions, 1 for normals, 2 for tangents.
 vec3 pose_morphed(vec3 at_rest, uint first, uint count, uint kind, uint vertex) {
     PoseSum sum = PoseSum(at_rest, vec3(0.0));
     for (uint target = first; target < first + count; target++) {
@@ -54,7 +58,7 @@ vec3 pose_morphed(vec3 at_rest, uint first, uint count, uint kind, uint vertex) 
     return sum.value + sum.lost;
 }
 
-// Returns the weighted sum of the joints of a vertex.
+// Returns the weighted sum of the maps of a vertex's joints.
 PoseMatrix pose_blended(PoseDraw draw, uint vertex) {
     precise vec3 x = vec3(0.0);
     precise vec3 y = vec3(0.0);
@@ -74,6 +78,7 @@ PoseMatrix pose_blended(PoseDraw draw, uint vertex) {
     return PoseMatrix(x, y, z, translation);
 }
 
+// Returns a vector under a linear map with the columns x, y, z.
 vec3 pose_turned(vec3 x, vec3 y, vec3 z, vec3 vector) {
     precise vec3 turned = vector.x * x + vector.y * y + vector.z * z;
     return turned;
@@ -90,7 +95,7 @@ bool pose_divides(float x) {
     return bits >= 0x00800000u && bits < 0x7F800000u;
 }
 
-// Returns the unit vector along another; zero if there is no direction.
+// Returns the unit vector along a vector; zero if the vector has no direction.
 vec3 pose_unit(vec3 vector) {
     float scale = pose_largest(vector);
     if (!pose_divides(scale)) return vec3(0.0);
@@ -98,8 +103,8 @@ vec3 pose_unit(vec3 vector) {
     return scaled / length(scaled);
 }
 
-// Converts a map of positions to the map of normals that belongs to it: its cofactors, which for a mirrored
-// map also flip normals back to the side of the winding.
+// Converts a linear map of positions to the map of normals that belongs to it: the cofactors. For a map that
+// mirrors, these also turn normals back to the side of the winding.
 void pose_cofactors(inout vec3 x, inout vec3 y, inout vec3 z) {
     float scale = max(pose_largest(x), max(pose_largest(y), pose_largest(z)));
     if (!pose_divides(scale)) {
@@ -116,11 +121,12 @@ void pose_cofactors(inout vec3 x, inout vec3 y, inout vec3 z) {
     z = side * cross(a, b);
 }
 
+// Stores the posed position of a vertex.
 void pose_store_position(uint vertex, vec3 position) {
     // The values are compared as bits, which finds NaN on every device.
     uvec3 magnitude = floatBitsToUint(position) & 0x7FFFFFFFu;
     if (max(max(magnitude.x, magnitude.y), magnitude.z) > floatBitsToUint(LARGEST_COORDINATE)) {
-        // No bounds contain this position, so the check of a build counts its triangles.
+        // No bounds contain this position, so the check of a build counts the triangles at this vertex.
         position = vec3(uintBitsToFloat(0x7F800000u));
     }
     pose_positions[3u * vertex] = position.x;

@@ -1,6 +1,7 @@
-// Poses the vertices of draws that move: morph targets, then joints or the draw's place; one invocation per vertex.
+// Poses the vertices of draws that move: adds morph targets, then applies joints or the draw's placement.
 // Reads: pose draws, their groups, placements, joint matrices and shown targets of the frame, shapes at rest.
 // Writes: positions of the geometry, posed attributes, DRAW_MIRRORED of draws and draw shadings.
+// One invocation per vertex, one workgroup per group.
 // Source: docs/motion.md, "On the device".
 #version 460
 #include "contract/extensions.glsl"

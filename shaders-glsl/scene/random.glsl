@@ -1,7 +1,8 @@
-// Random numbers: integer-exact functions of pixel, sample, dimension and seed.
+// Random numbers: functions of pixel, sample, dimension and seed that are exact integers on every device.
 // Reads: random_seed(), random_sampler(). Writes: nothing.
-// Source: docs/shading.md, "Random numbers"; pcg4d of Jarzynski and Olano, "Hash functions for GPU rendering", JCGT 9(3),
-// 2020; Burley, "Practical hash-based Owen scrambling", JCGT 9(4), 2020; directions of Joe and Kuo 2008.
+// Source: docs/shading.md, "Random numbers"; pcg4d of Jarzynski and Olano, "Hash functions for GPU
+// rendering", JCGT 9(3), 2020; Burley, "Practical hash-based Owen scrambling", JCGT 9(4), 2020; directions of
+// Joe and Kuo 2008.
 #ifndef SCENE_RANDOM_GLSL
 #define SCENE_RANDOM_GLSL
 
@@ -9,10 +10,11 @@
 #include "scene/constants.glsl"
 #include "scene/random_dimensions.glsl"
 
-// Bits mixed into the key of a group, so that groups share no key with the numbers of the other sampler.
+// Bits mixed into the key of a group, so that no group shares its key with a number of the other sampler.
 #define RANDOM_GROUP_KEY 0x80000000u
 
-// Seed of the whole image and its SAMPLER_*, which scene/accessors.glsl reads from the frame.
+// The including file defines these two functions: the seed of the whole image, and its SAMPLER_*.
+// scene/accessors.glsl reads both from the frame.
 uint random_seed();
 uint random_sampler();
 
@@ -29,8 +31,8 @@ uint random_scramble_reversed(uint bits, uint seed) {
 
 // All Sobol dimensions of an index have their bits in reverse: bit k is worth 2^-(k + 1).
 
-// Returns the second dimension of the index whose reverse is `first`: Pascal's triangle modulo 2, applied bit
-// by bit.
+// Returns the second dimension of the index whose reverse is `first`. The map is Pascal's triangle modulo 2,
+// applied bit by bit.
 uint random_sobol_second(uint first) {
     first ^= first << 16;
     first ^= (first & 0x00FF00FFu) << 8;
@@ -39,19 +41,22 @@ uint random_sobol_second(uint first) {
     return bitfieldReverse(first ^ ((first & 0x55555555u) << 1));
 }
 
-// Divides polynomials over GF(2), one in each field of 2 * s * block bits, where s is 2 or 3, by x^(s *
-// block) + x^block + 1, and leaves the quotient above the remainder. The masks are the uppermost block of the
-// fields, their upper halves, and their lower halves without the lowest block.
+// Divides polynomials over GF(2) by x^(s * block) + x^block + 1, where s is 2 in the first word and 3 in the
+// second. Each word holds several polynomials, one in each field of 2 * s * block bits. The quotient replaces
+// the upper half of a field, the remainder its lower half. The masks are the uppermost block of each field,
+// its upper half, and its lower half without the lowest block.
 uvec2 random_sobol_divide(uvec2 fields, uint block, uvec2 top, uvec2 upper, uvec2 lower) {
     fields ^= (fields & top) >> (uvec2(1u, 2u) * block);
     uvec2 quotient = (fields & upper) >> (uvec2(2u, 3u) * block);
     return fields ^ quotient ^ ((quotient << block) & lower);
 }
 
-// The third and the fourth dimension, of the primitive polynomials p = x^2 + x + 1 and x^3 + x + 1 of degree s. The
-// recurrence of the directions V is that of the powers of x where p = y^s and y halves. So the index, as a polynomial in
-// x, is written in base p, by dividing by p^8, p^4, p^2 and p, which have three terms like p; then digit j is worth
-// y^(s j) times its sum of V_0 ... V_(s-1), which are 1, 1 + y and y^2.
+// Returns the third and the fourth dimension of an index. They belong to the primitive polynomials p = x^2 +
+// x + 1 and x^3 + x + 1, of degrees s = 2 and 3. Their directions V follow the same recurrence as the powers
+// of x where p = y^s and y stands for a factor of one half. So the index, as a polynomial in x, is written in
+// base p: it is divided by p^8, p^4, p^2 and p, each of which has three terms as p has. Digit j, which is a
+// polynomial of degree below s, is then worth y^(s j) times the sum of those of V_0 ... V_(s-1) whose bits it
+// has; these directions are 1, 1 + y and y^2.
 uvec2 random_sobol_others(uint index) {
     uvec2 digits = uvec2(index);
     digits = random_sobol_divide(digits, 8u, uvec2(0xFF000000u, 0u), uvec2(0xFFFF0000u, 0xFF000000u),
@@ -65,8 +70,8 @@ uvec2 random_sobol_others(uint index) {
     return digits ^ ((digits >> 1) & uvec2(0x55555555u, 0x49249249u));
 }
 
-// Returns the four numbers of a group of dimensions: Sobol points in an order of their own, each dimension
-// scrambled.
+// Returns the four numbers of a group of dimensions: a Sobol point, taken in an order that is the group's
+// own, with each dimension scrambled.
 uvec4 random_group(uint pixel, uint sample_index, uint group) {
     uvec4 words = random_words(uvec4(pixel, RANDOM_GROUP_KEY, group, random_seed()));
     uint order = words.x ^ (words.z * 0x9e3779b9u);
@@ -79,12 +84,12 @@ uvec4 random_group(uint pixel, uint sample_index, uint group) {
                                  random_scramble_reversed(random_sobol_second(reversed), words.w)));
 }
 
-// Returns a number of the sampler without groups.
+// Returns a number of the sampler that has no groups (SAMPLER_PCG).
 float random_alone(uint pixel, uint sample_index, uint dimension) {
     return random_unit(random_words(uvec4(pixel, sample_index, dimension, random_seed())).x);
 }
 
-// Returns a number uniform in [0, 1), a multiple of 2^-24.
+// Returns a number that is uniform in [0, 1) and a multiple of 2^-24.
 float random_float(uint pixel, uint sample_index, uint dimension) {
     if (random_sampler() == SAMPLER_SOBOL) {
         return random_unit(random_group(pixel, sample_index, dimension >> 2)[dimension & 3u]);
@@ -92,7 +97,8 @@ float random_float(uint pixel, uint sample_index, uint dimension) {
     return random_alone(pixel, sample_index, dimension);
 }
 
-// Returns the last two numbers of a group, spread best over a square; `dimension` is the first of the two.
+// Returns the last two numbers of a group, which are spread best over a square. `dimension` is the first of
+// the two.
 vec2 random_place(uint pixel, uint sample_index, uint dimension) {
     if (random_sampler() == SAMPLER_SOBOL) {
         uvec4 bits = random_group(pixel, sample_index, dimension >> 2);
@@ -101,12 +107,13 @@ vec2 random_place(uint pixel, uint sample_index, uint dimension) {
     return vec2(random_alone(pixel, sample_index, dimension), random_alone(pixel, sample_index, dimension + 1u));
 }
 
-// Returns the dimension of one use at scattering `bounce`; `offset` is RANDOM_LIGHT_KIND to RANDOM_ROULETTE.
+// Returns the dimension of one use of random numbers at scattering `bounce`. `offset` is one of
+// RANDOM_LIGHT_KIND to RANDOM_ROULETTE.
 uint random_dimension(uint bounce, uint offset) {
     return RANDOM_BOUNCE_FIRST + bounce * RANDOM_BOUNCE_STRIDE + offset;
 }
 
-// Returns the numbers of a group; `dimension` is its first, a multiple of 4.
+// Returns the four numbers of a group. `dimension` is the first of them, a multiple of 4.
 vec4 random_vec4(uint pixel, uint sample_index, uint dimension) {
     if (random_sampler() == SAMPLER_SOBOL) {
         uvec4 bits = random_group(pixel, sample_index, dimension >> 2);

@@ -1,6 +1,6 @@
-// The surface at a hit, as it is shaded.
+// Finds the surface at a hit, as it is shaded.
 // Reads: geometry, every scene table but lights and environment. Writes: nothing.
-// Source: docs/shading.md, "Surfaces"; Akenine-Moeller et al. 2019 for the texture level.
+// Source: docs/shading.md, "Surfaces"; Akenine-Moeller et al. 2019 for the level of textures.
 #ifndef SCENE_SURFACE_GLSL
 #define SCENE_SURFACE_GLSL
 
@@ -8,6 +8,7 @@
 #include "scene/attributes.glsl"
 #include "scene/texture.glsl"
 
+// Returns the surface of a miss. Its members hold the defaults of members that a structure does not know.
 Surface surface_miss(Ray ray) {
     Surface s;
     s.position = vec3(0.0);
@@ -33,7 +34,7 @@ Surface surface_miss(Ray ray) {
     return s;
 }
 
-// Returns the area of the triangle's texture coordinates per square metre; 0 if either has no area.
+// Returns the area that a triangle covers in texture coordinates, per square metre; 0 if either area is 0.
 float surface_uv_area(DrawShading draw, uint uv_set, uvec3 triangle, float twice_area) {
     vec2 a = attribute_uv_at(draw, uv_set, triangle.x);
     vec2 ab = attribute_uv_at(draw, uv_set, triangle.y) - a;
@@ -41,6 +42,7 @@ float surface_uv_area(DrawShading draw, uint uv_set, uvec3 triangle, float twice
     return twice_area > 0.0 ? abs(ab.x * ac.y - ab.y * ac.x) / twice_area : 0.0;
 }
 
+// Returns the texel of a texture at a point of a triangle; white if there is no texture.
 vec4 surface_texel(TextureRef reference, DrawShading draw, uvec3 triangle, vec3 weights, float twice_area,
                    float footprint) {
     if (reference.texture == TEXTURE_NONE) return vec4(1.0);
@@ -49,7 +51,7 @@ vec4 surface_texel(TextureRef reference, DrawShading draw, uvec3 triangle, vec3 
     return texture_sample(reference, uv, texture_level(reference, area, footprint));
 }
 
-// Texels of all textures of a material; white for a texture that it does not have.
+// Texels of all textures of a material. A texture that the material does not have gives white.
 struct SurfaceTexels {
     vec4 normal;
     vec4 base_color;
@@ -58,9 +60,9 @@ struct SurfaceTexels {
     vec4 transmission;
 };
 
-// Samples all textures of a material, by one code in a loop: five copies of the code would be most of a
-// kernel, and of the time that a driver takes to compile it. For an unlit material only the first two are
-// sampled.
+// Samples all textures of a material by one piece of code in a loop. Five copies of this code would make up
+// most of a kernel, and most of the time that a driver takes to compile it. For an unlit material only the
+// first two textures are sampled.
 SurfaceTexels surface_texels(Material material, DrawShading draw, uvec3 triangle, vec3 weights, float twice_area,
                              float footprint) {
     SurfaceTexels texels = SurfaceTexels(vec4(1.0), vec4(1.0), vec4(1.0), vec4(1.0), vec4(1.0));
@@ -82,8 +84,8 @@ SurfaceTexels surface_texels(Material material, DrawShading draw, uvec3 triangle
     return texels;
 }
 
-// Returns the tangent along growing u (w: sign of the bitangent), from the vertices or else from the
-// triangle's texture coordinates; zero if there is none.
+// Returns the tangent along growing u; w is the sign of the bitangent. The tangent comes from the vertices,
+// else from the triangle's texture coordinates; it is zero if neither gives one.
 vec4 surface_tangent(DrawShading draw, uint uv_set, uvec3 triangle, vec3 weights, vec3 ab, vec3 ac) {
     vec4 tangent = attribute_tangent(draw, triangle, weights);
     if (dot(tangent.xyz, tangent.xyz) > 0.0) return tangent;
@@ -91,12 +93,13 @@ vec4 surface_tangent(DrawShading draw, uint uv_set, uvec3 triangle, vec3 weights
     vec2 u = attribute_uv_at(draw, uv_set, triangle.y) - a;
     vec2 v = attribute_uv_at(draw, uv_set, triangle.z) - a;
     float determinant = u.x * v.y - u.y * v.x;
-    // v grows downwards in images, so the bitangent points against it.
+    // v grows downwards in images, so the bitangent points the other way.
     float turn = determinant < 0.0 ? -1.0 : 1.0;
     float mirrored = (draw.flags & DRAW_MIRRORED) != 0u ? 1.0 : -1.0;
     return determinant == 0.0 ? vec4(0.0) : vec4((ab * v.y - ac * u.y) * turn, turn * mirrored);
 }
 
+// Returns a unit normal bent by the texel of a normal map; `scale` is the scale of the map's x and y.
 vec3 surface_mapped_normal(vec3 normal, vec4 tangent, vec3 texel, float scale) {
     vec3 along = tangent.xyz - normal * dot(normal, tangent.xyz);
     float squared = dot(along, along);
@@ -109,8 +112,8 @@ vec3 surface_mapped_normal(vec3 normal, vec4 tangent, vec3 texel, float scale) {
     return mapped_squared > 0.0 ? mapped * inversesqrt(mapped_squared) : normal;
 }
 
-// Returns the shading normal on the side of the geometric normal. It may face away from the ray:
-// bsdf_facet_normal does not.
+// Returns the shading normal, on the side of the geometric normal. It may face away from the ray;
+// bsdf_facet_normal bends it if so.
 vec3 surface_shading_normal(vec3 interpolated, vec3 geometric_normal) {
     float squared = dot(interpolated, interpolated);
     if (!(squared > 0.0)) return geometric_normal;
@@ -119,8 +122,8 @@ vec3 surface_shading_normal(vec3 interpolated, vec3 geometric_normal) {
     return normal;
 }
 
-// Returns the surface with every field filled. `triangle` are the vertices of the triangle with an id, a, b
-// and c their posed positions, `barycentrics` the weights of vertices 1 and 2.
+// Returns the surface at a point of the triangle with an id, with every member set. `triangle` are the
+// triangle's vertices, a, b and c their posed positions, `barycentrics` the weights of vertices 1 and 2.
 Surface scene_surface_at(
     Ray ray, float t, uint id, uvec3 triangle, vec3 a, vec3 b, vec3 c, vec2 barycentrics) {
     Surface s = surface_miss(ray);
@@ -142,13 +145,13 @@ Surface scene_surface_at(
     s.geometric_normal = counter_clockwise ? normal : -normal;
     s.side = counter_clockwise == ((draw.flags & DRAW_MIRRORED) == 0u) ? 1u : 0u;
 
-    // The footprint is the smaller axis of the cone's ellipse: along the larger one, the samples of a pixel
-    // are many.
+    // The footprint is the smaller axis of the ellipse that the ray's cone cuts out of the surface. Along the
+    // larger axis, the many samples of a pixel do the filtering.
     float footprint = ray.cone_width + ray.cone_spread * t * speed;
 
     SurfaceTexels texels = surface_texels(material, draw, triangle, weights, twice_area, footprint);
     vec3 interpolated = attribute_normal(draw, triangle, weights);
-    // Attributes describe the front; seen from behind they are turned.
+    // Attributes describe the front. They are turned if the surface is seen from behind.
     float facing = s.side == 1u ? 1.0 : -1.0;
     if (SHADING_TEXTURES && material.normal_texture.texture != TEXTURE_NONE) {
         vec3 front = dot(interpolated, interpolated) > 0.0 ? normalize(interpolated) : s.geometric_normal * facing;
@@ -183,7 +186,7 @@ Surface scene_surface_at(
     return s;
 }
 
-// Returns scene_surface_at for a triangle of the whole geometry, which is bound.
+// Returns scene_surface_at for a triangle of the whole geometry, which must be bound.
 Surface scene_surface(Ray ray, float t, uint primitive, vec2 barycentrics) {
     uvec3 triangle = geometry_triangle(primitive);
     vec3 a, b, c;

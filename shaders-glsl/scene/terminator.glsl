@@ -1,5 +1,5 @@
-// The surface that light samples see of a smooth triangle, so that the border of its shadow is that of the smooth
-// shape and does not show the triangles.
+// The surface from which light samples of a smooth triangle start, so that the border of its shadow is that
+// of the smooth shape and does not show the triangles.
 // Reads: frame, geometry, draw shadings, posed attributes. Writes: nothing.
 // Source: Hanika 2021, Hacking the shadow terminator (Ray Tracing Gems II, chapter 4), for the origin.
 #ifndef SCENE_TERMINATOR_GLSL
@@ -8,12 +8,13 @@
 #include "ads/triangle.glsl"
 #include "scene/attributes.glsl"
 
-// True if light samples see the smooth shape.
+// True if light samples start from the smooth shape.
 layout(constant_id = 96) const bool TERMINATOR_IS_SMOOTH = false;
 
-// Returns the surface with its position moved out to the planes through the vertices perpendicular to their
-// normals, and the smooth normal in place of the geometric one. The surface is unchanged if the triangle is
-// flat or not known, if it transmits, and if the smooth shape faces away from `o`.
+// Returns the surface with its position moved outwards to the planes through the vertices that are
+// perpendicular to the vertices' normals, and with the smooth normal in place of the geometric one. The
+// surface stays unchanged if its triangle is flat or not known, if it transmits light, and if the smooth
+// shape faces away from `o`.
 Surface terminator_surface(Surface s, vec3 o) {
     if (!TERMINATOR_IS_SMOOTH || s.primitive >= scene_frame().triangle_count || s.transmission > 0.0) return s;
     DrawShading draw = scene_draw_shading(scene_draw_of(s.primitive));

@@ -1,5 +1,5 @@
 // Scatters light at given surfaces and draws random numbers, for tests.
-// Reads: cases, the seed of the frame. Writes: results.
+// Reads: cases, the seed of the frame. Writes: results. One invocation per case.
 // Source: docs/shading.md, "Reflection and transmission", "Random numbers".
 #version 460
 #include "contract/extensions.glsl"
@@ -9,18 +9,21 @@
 
 layout(local_size_x = 64) in;
 
+// Input of a test.
 struct Case {
     Surface surface;
+    // unit direction from which the surface is seen
     vec3 o;
-    uint pixel;         // key of the random numbers, as are the next two
-    vec3 i;             // a direction to evaluate in addition to the sampled one
+    uint pixel;         // key of the random numbers, as are sample_index and dimension
+    vec3 i;             // unit direction in which scattering is evaluated, beside the sampled one
     uint sample_index;
     uint dimension;
 };
 
+// Output of a test.
 struct Result {
     BsdfSample chosen;
-    vec3 value;         // towards i
+    vec3 value;         // towards i, 1/sr
     float pdf;
     vec4 random;
 };

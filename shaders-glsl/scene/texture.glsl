@@ -1,5 +1,6 @@
-// Textures sampled from buffers of texels: wrapping, nearest, bilinear and trilinear filtering.
-// Reads: textures, texels. Writes: nothing. Source: docs/shading.md, "Textures".
+// Samples textures from buffers of texels: wrap modes; nearest, bilinear and trilinear filtering.
+// Reads: textures, texels. Writes: nothing.
+// Source: docs/shading.md, "Textures".
 #ifndef SCENE_TEXTURE_GLSL
 #define SCENE_TEXTURE_GLSL
 
@@ -10,8 +11,8 @@ float srgb_decode(float encoded) {
     return encoded <= 0.04045 ? encoded / 12.92 : pow((encoded + 0.055) / 1.055, 2.4);
 }
 
-// Brings a coordinate near [0, 1] (mirror: [0, 2)), so that integers are exact afterwards. A coordinate that
-// is not finite becomes 0.
+// Brings a coordinate near [0, 1] (with mirrored repeat [0, 2)), so that integers are exact afterwards. A
+// coordinate that is not finite becomes 0.
 float texture_reduce(float u, uint wrap) {
     if (!(abs(u) < 1.0e9)) return 0.0;
     if (wrap == WRAP_REPEAT) return u - floor(u);
@@ -19,7 +20,7 @@ float texture_reduce(float u, uint wrap) {
     return clamp(u, -0.5, 1.5);
 }
 
-// Returns the texel index for x in [-size, 2 size].
+// Returns the index of a texel for x in [-size, 2 size].
 int texture_wrap(int x, int size, uint wrap) {
     if (wrap == WRAP_REPEAT) {
         if (x < 0) x += size;
@@ -32,6 +33,7 @@ int texture_wrap(int x, int size, uint wrap) {
     return clamp(x, 0, size - 1);
 }
 
+// Returns a texel of the level that begins at `first_texel` and is `width` texels wide, decoded to linear.
 vec4 texture_fetch(Texture source, uint first_texel, int width, ivec2 texel) {
     vec4 value = scene_texel(first_texel + uint(texel.y) * uint(width) + uint(texel.x));
     if ((source.sampling & TEXTURE_SRGB) != 0u) {
@@ -40,8 +42,8 @@ vec4 texture_fetch(Texture source, uint first_texel, int width, ivec2 texel) {
     return value;
 }
 
-// Samples one level; uv is reduced already. It reads the texel at the place, or the four around it if the
-// texture is filtered: both cases fetch their first texel by one code.
+// Samples one level; uv is already reduced. If the texture is filtered the function reads four texels,
+// otherwise one. Both cases fetch their first texel by the same code.
 vec4 texture_sample_level(Texture source, vec2 uv, uint level) {
     uint first_texel = source.first_texel;
     uvec2 size = uvec2(source.width, source.height);
@@ -68,8 +70,8 @@ vec4 texture_sample_level(Texture source, vec2 uv, uint level) {
     return mix(top, bottom, share.y);
 }
 
-// Returns RGBA, with colour decoded to linear if the texture holds sRGB; white if there is no texture. Both
-// levels are sampled by one code in a loop: a kernel with this function at several places is compiled in a
+// Returns the RGBA of a texture, decoded to linear if the texture holds sRGB; white if there is no texture. A
+// loop samples both levels by the same code: a kernel that has this function at several places compiles in a
 // fraction of the time.
 vec4 texture_sample(TextureRef reference, vec2 uv, float level) {
     if (!SHADING_TEXTURES || reference.texture == TEXTURE_NONE) return vec4(1.0);
@@ -90,8 +92,9 @@ vec4 texture_sample(TextureRef reference, vec2 uv, float level) {
     return value;
 }
 
-// Returns the level for a footprint of `footprint` metres across on a surface whose texture coordinates
-// (before the transform) cover `uv_area` per square metre; 0 for a footprint of 0.
+// Returns the level of a texture for a footprint that is `footprint` metres across. The surface covers
+// `uv_area` of texture coordinates (before the texture's transform) per square metre. The level is 0 for a
+// footprint of 0.
 float texture_level(TextureRef reference, float uv_area, float footprint) {
     if (!SHADING_TEXTURES || reference.texture == TEXTURE_NONE || !(footprint > 0.0)) return 0.0;
     Texture source = scene_texture(reference.texture);

@@ -1,6 +1,6 @@
-// The buffers of shadow maps.
-// Reads, writes: set SHADOW_MAPS_SET. The views are written with SHADOW_MAPS_VIEWS_WRITTEN, texels with
-// SHADOW_MAPS_TEXELS_WRITTEN, else they are read.
+// Declares the buffers of shadow maps.
+// Reads, writes: the buffers of set SHADOW_MAPS_SET. Views are written if SHADOW_MAPS_VIEWS_WRITTEN is
+// defined, texels if SHADOW_MAPS_TEXELS_WRITTEN is; otherwise they are only read.
 #ifndef SHADOW_MAPS_ACCESSORS_GLSL
 #define SHADOW_MAPS_ACCESSORS_GLSL
 
@@ -30,12 +30,12 @@ layout(set = SHADOW_MAPS_SET, binding = 0, scalar) SHADOW_MAPS_VIEW_ACCESS buffe
 layout(set = SHADOW_MAPS_SET, binding = 1, scalar) SHADOW_MAPS_VIEW_ACCESS buffer ShadowMapsViewBuffer {
     ShadowMapsView shadow_maps_views[];
 };
-// Depths as the bits of floats, which order like them, since none is negative.
+// Texels hold depths as the bits of floats. Depths are not negative, so they order like their bits.
 layout(set = SHADOW_MAPS_SET, binding = 2, scalar) SHADOW_MAPS_TEXEL_ACCESS buffer ShadowMapsTexelBuffer {
     uint shadow_maps_texels[];
 };
 
-// Returns the place of a texel in the buffer; column and row are within the view.
+// Returns the number of a texel in the buffer; column and row are within the view.
 uint shadow_maps_texel(uint view, uvec2 place, uint resolution) {
     return (view * resolution + place.y) * resolution + place.x;
 }

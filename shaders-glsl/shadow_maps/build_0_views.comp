@@ -1,5 +1,7 @@
-// Places the views of every light, and of every point on an emitting triangle, as lights and triangles are now.
-// Reads: geometry, lights, emitting triangles, which views each light has. Writes: views, status.
+// Places the views of every light, and of every point on an emitting triangle, where lights and triangles are
+// now.
+// Reads: geometry, lights, emitting triangles, the table of views per light. Writes: views, header.status.
+// One invocation per light without extent, and then one per point on an emitting triangle.
 // Source: shadow_maps/place_views.glsl.
 #version 460
 #include "contract/extensions.glsl"

@@ -1,7 +1,9 @@
-// The depth of what is nearest to the light at each texel's centre, moved back as far as its plane reaches within the
-// texel, so that no point of the plane lies behind.
+// Finds the depth of the triangle that is nearest to the light at each texel's centre. The depth is moved
+// back as far as the triangle's plane reaches within the texel, so that no point of the plane lies behind it.
 // Reads: geometry, views; the scene where alpha is tested. Writes: texels.
-// Source: Williams 1978; the bias is that of a plane's slope, as in Wang and Molnar 1994 and in polygon offsets.
+// One invocation per triangle, view and texel that build_raster.vert proposes.
+// Source: Williams 1978; the bias is that of a plane's slope, as in Wang and Molnar 1994 and in polygon
+// offsets.
 #version 460
 #include "contract/extensions.glsl"
 #define SHADOW_MAPS_TEXELS_WRITTEN
@@ -13,8 +15,8 @@
 
 layout(location = 0) flat in uvec2 primitive_and_view;
 
-// Returns the largest difference of the depth of a triangle's plane within a texel from that at its centre,
-// in a parallel view.
+// Returns the largest difference between the depths that a triangle's plane has in a texel and the depth at
+// the texel's centre, in a parallel view.
 float parallel_extent(vec3 a, vec3 b, vec3 c, uint resolution) {
     vec3 normal = cross(b - a, c - a);
     return (abs(normal.x) + abs(normal.y)) / (abs(normal.z) * float(resolution));
@@ -22,7 +24,7 @@ float parallel_extent(vec3 a, vec3 b, vec3 c, uint resolution) {
 
 void main() {
     uint resolution = shadow_maps_header.resolution;
-    // The viewport has a border of one.
+    // The viewport has a border of one texel.
     ivec2 place = ivec2(gl_FragCoord.xy) - 1;
     if (any(lessThan(place, ivec2(0))) || any(greaterThanEqual(place, ivec2(resolution)))) {
         return;
@@ -46,7 +48,7 @@ void main() {
     float z;
     vec2 barycentrics;
     float error;
-    // A triangle as near to the light as rounding is beyond the end of the rays.
+    // A triangle that is as near to the light as rounding lies beyond the end of shadow rays.
     if (!triangle_intersect(origin, direction, a, b, c, z, barycentrics, error) || !(z > view.rounding)) {
         return;
     }

@@ -1,6 +1,6 @@
 // Proposes, for each triangle and view, the texels whose centres the triangle may cover.
-// Reads: geometry, views. Writes: nothing.
-// Source: the dilated triangles of ads/coverage.glsl; an instance per view, without attachments.
+// Reads: geometry, views. Writes: nothing. Three vertices per triangle, one instance per view.
+// Source: the dilated triangles of ads/coverage.glsl. Draws have no attachments.
 #version 460
 #include "contract/extensions.glsl"
 #include "ads/coverage.glsl"
@@ -11,7 +11,8 @@
 
 layout(location = 0) flat out uvec2 primitive_and_view;
 
-// Transforms a point to the screen. In a parallel view x and y are places on the map already.
+// Transforms a point from the frame of a view to its screen. In a parallel view, x and y are places on the
+// map already.
 vec3 on_screen(ShadowMapsView view, vec3 p) {
     return vec3(p.xy, view.parallel != 0u ? 1.0 : p.z);
 }

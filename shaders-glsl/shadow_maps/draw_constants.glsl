@@ -1,11 +1,11 @@
-// The push constants of the passes that draw views.
+// Declares the push constants of the passes that draw views.
 // Reads: push constants. Writes: nothing.
 #ifndef SHADOW_MAPS_DRAW_CONSTANTS_GLSL
 #define SHADOW_MAPS_DRAW_CONSTANTS_GLSL
 
-// Views of a draw. 4 bytes.
+// The views onto which a draw goes. 4 bytes.
 layout(push_constant, scalar) uniform ShadowMapsDrawConstants {
-    uint first_view;      // of the instances drawn
+    uint first_view;      // view of the first instance; the others follow
 } drawn;
 
 #endif

@@ -1,5 +1,7 @@
-// Answers the shadow rays that lead to a light with a map, or to a triangle with maps; selects all others.
-// Reads: rays, geometry, views, texels. Writes: hits; the selection of the queue.
+// Answers the shadow rays that lead to a light with a map, or to a triangle with maps, and selects all other
+// rays.
+// Reads: rays, geometry, views, texels. Writes: hits, the selection of the queue. One invocation per slot of
+// the domain.
 // Source: shadow_maps/occlusion.glsl.
 #version 460
 #include "contract/extensions.glsl"
@@ -9,9 +11,9 @@
 
 layout(local_size_x = QUEUE_GROUP_SIZE) in;
 
-// The slots. 4 bytes.
+// The slots that a pass works on. 4 bytes.
 layout(push_constant, scalar) uniform ShadowMapsQueueConstants {
-    uint domain;          // the number of first slots, or DOMAIN_SELECTED
+    uint domain;          // number of slots from the first on, or DOMAIN_SELECTED
 } pushed;
 
 void main() {

@@ -1,4 +1,5 @@
-// The answer of maps to a shadow ray: its light, the view and the texel that it leads to, and the depth there.
+// Answers a shadow ray from maps: finds the light, the view and the texel to which the ray leads, and
+// compares the depth there.
 // Reads: geometry, views, texels. Writes: nothing.
 // Source: Williams 1978, without a filter; the plane of the receiver as in Isidoro 2006.
 #ifndef SHADOW_MAPS_OCCLUSION_GLSL
@@ -11,10 +12,10 @@
 #include "shadow_maps/accessors.glsl"
 #include "shadow_maps/view.glsl"
 
-// Returns the depth at a texel's centre of the plane of the triangle that a ray starts on; that of the ray's
-// origin if no triangle is known, or if its plane is not met there.
+// Returns the depth, at a texel's centre, of the plane of the triangle on which a ray starts. If no triangle
+// is known, or its plane is not met there, returns the depth of the ray's origin p.
 float receiver_depth(Ray ray, ShadowMapsView view, vec3 p, vec2 center) {
-    // The triangles that are bound are the whole geometry, so that ids are their numbers.
+    // The geometry that is bound is the whole one, so triangles have their ids as numbers.
     if (ray.exclude_primitive >= geometry_triangle_count()) {
         return p.z;
     }
@@ -34,7 +35,8 @@ float receiver_depth(Ray ray, ShadowMapsView view, vec3 p, vec2 center) {
     return is_met ? z : p.z;
 }
 
-// Returns the first view of the point on an emitting triangle that is nearest to the end of a ray.
+// Returns the first view of a point on an emitting triangle: of the point that is nearest to the end of a
+// ray.
 uint nearest_point(Ray ray, uint emitter) {
     vec3 end = ray.origin + ray.t_max * ray.direction;
     uint first = shadow_maps_header.first_point + emitter * shadow_maps_header.point_count * SHADOW_MAPS_CUBE_VIEWS;
@@ -52,7 +54,7 @@ uint nearest_point(Ray ray, uint emitter) {
     return nearest;
 }
 
-// Returns the views of the light that a ray leads to; none if the light has no map.
+// Returns the views of the light to which a ray leads; their number is 0 if the light has no map.
 ShadowMapsLight views_of(Ray ray) {
     uint light = (ray.flags >> RAY_LIGHT_SHIFT) - 1u;
     if (light < shadow_maps_header.light_count) {
@@ -65,13 +67,13 @@ ShadowMapsLight views_of(Ray ray) {
     return ShadowMapsLight(0u, 0u);
 }
 
-// True if maps answer a ray. `occluded` receives the answer.
+// True if maps answer a ray; `occluded` is the answer.
 bool is_answered(Ray ray, out bool occluded) {
     occluded = false;
     if ((ray.flags >> RAY_LIGHT_SHIFT) == 0u || !geometry_is_built(shadow_maps_header.status)) {
         return false;
     }
-    // Maps hold both sides of every triangle.
+    // Maps hold both sides of every triangle, so they cannot answer rays that pass backs.
     if ((ray.flags & RAY_CULL_BACK_FACES) != 0u || !ray_is_valid(ray)) {
         return false;
     }
@@ -81,7 +83,7 @@ bool is_answered(Ray ray, out bool occluded) {
     }
     uint index = light.first_view;
     if (light.view_count == SHADOW_MAPS_CUBE_VIEWS) {
-        // The views of a light have one origin.
+        // The six views of a light have one origin.
         index += face_of(ray.origin - shadow_maps_views[index].origin);
     }
     ShadowMapsView view = shadow_maps_views[index];

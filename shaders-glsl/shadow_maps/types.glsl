@@ -1,36 +1,42 @@
-// The records of shadow maps. Scalar block layout.
-// Reads, writes: nothing. Source: docs/shadow-maps.md.
+// The records of shadow maps, in scalar block layout.
+// Reads, writes: nothing.
+// Source: docs/shadow-maps.md.
 #ifndef SHADOW_MAPS_TYPES_GLSL
 #define SHADOW_MAPS_TYPES_GLSL
 
 // Values that all maps share. Shared, 32 bytes.
 struct ShadowMapsHeader {
-    uint status;          // STATUS_COMPLETE with the stamp of the triangles that are drawn; 0: nothing is built
+    uint status;          // STATUS_COMPLETE with the stamp of the triangles drawn; 0: nothing is built
     uint resolution;      // texels along a side of a view
     uint light_count;     // lights without extent
     uint view_count;      // views of all lights and points
-    float bias;           // of the depth that a plane gains within half a texel, the share that is added to each texel
+    // share, added to each texel, of the depth that a plane gains
+    float bias;           // from the texel's centre to its corners
     uint emitter_count;   // emitting triangles
-    uint point_count;     // points on each of them; 0: they have no maps
-    uint first_point;     // first view of the first point; each has SHADOW_MAPS_CUBE_VIEWS
+    uint point_count;     // points on each emitting triangle; 0: these have no maps
+    uint first_point;     // first view of the first point; each point has SHADOW_MAPS_CUBE_VIEWS views
 };
 
 // Views of a light without extent. Shared, 8 bytes.
 struct ShadowMapsLight {
-    uint first_view;      // its first view
+    uint first_view;      // number of the first of its views
     uint view_count;      // 1, or SHADOW_MAPS_CUBE_VIEWS
 };
 
-// View: one square of texels. A point p is at (x, y, z) = (right, up, forward) . (p - origin), and on the map
-// at (x, y), in perspective at (x/z, y/z), which runs from -1 to 1. Depth is z, metres. Shared, 60 bytes.
+// A view: one square of texels. A point p has the coordinates (x, y, z) = (right, up, forward) . (p - origin)
+// in the view. On the map it is at (x, y) in a parallel view, at (x/z, y/z) in a perspective one; the map
+// spans -1 to 1. Depth is z, metres. Shared, 60 bytes.
 struct ShadowMapsView {
-    vec3 origin;          // the light; of a parallel view, the middle of its front side; metres relative to the frame origin
+    // metres relative to the frame origin: position of the light;
+    vec3 origin;          // in a parallel view the middle of its front side
+    // axis of the map's columns, divided by half the map's width;
     vec3 right;           // 1/metre in a parallel view
-    vec3 up;              // as `right`
-    vec3 forward;         // unit
-    uint parallel;        // 1: of a light far away
-    float rounding;       // metres by which computed depths may differ from true ones
-    uint excluded;        // triangle that a point is on, which occludes nothing; PRIMITIVE_NONE: of a light without extent
+    vec3 up;              // axis of the map's rows, in the same form
+    vec3 forward;         // axis of depth, unit
+    uint parallel;        // 1: the view is parallel, of a light far away
+    float rounding;       // metres: largest difference between computed and true depths
+    // triangle on which the view's point lies, which occludes nothing;
+    uint excluded;        // PRIMITIVE_NONE: the view is of a light without extent
 };
 
 #endif

@@ -1,12 +1,12 @@
-// Places of points in a view.
+// Transforms points into views and onto their maps.
 // Reads, writes: nothing.
 #ifndef SHADOW_MAPS_VIEW_GLSL
 #define SHADOW_MAPS_VIEW_GLSL
 
 #include "shadow_maps/types.glsl"
 
-// Transforms a point into the space of a view. Corners that triangles share get equal values in each, so no
-// gap opens between them.
+// Transforms a point into the frame of a view. A corner that triangles share gets equal values in each of
+// them, so that no gap opens between the triangles.
 vec3 shadow_maps_in_view(ShadowMapsView view, vec3 p) {
     precise vec3 q = p - view.origin;
     precise float x = (view.right.x * q.x + view.right.y * q.y) + view.right.z * q.z;
@@ -15,7 +15,8 @@ vec3 shadow_maps_in_view(ShadowMapsView view, vec3 p) {
     return vec3(x, y, z);
 }
 
-// Finds the place on the map of a point in the space of a view, from -1 to 1. False if it is not on the map.
+// Finds the place on the map, from -1 to 1, of a point in the frame of a view. Returns false if the point is
+// not on the map.
 bool shadow_maps_on_map(ShadowMapsView view, vec3 p, out vec2 place) {
     place = view.parallel != 0u ? p.xy : p.xy / p.z;
     return (view.parallel != 0u || p.z > 0.0) && all(lessThanEqual(abs(place), vec2(1.0)));

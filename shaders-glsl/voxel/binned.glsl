@@ -1,8 +1,8 @@
-// Work of a binning pass of voxels with axis A-buffers on a triangle in a view; BIN_VISIT says
-// which pass it is.
+// Processes a triangle in a view for a binning pass of voxels with axis A-buffers. BIN_VISIT names the pass.
 // Reads: geometry, header, voxels, with PAYLOAD_ATTRIBUTES the scene. Writes: see voxel/visit.glsl and
 // voxel/visit_voxels.glsl.
-// Source: Hu et al. section 3.1, by computing instead of drawing. The same functions decide as in the raster builder.
+// Source: Hu et al. section 3.1, by compute passes instead of draws. The functions that decide about a cell
+// are those of the raster builder.
 #ifndef VOXEL_BINNED_GLSL
 #define VOXEL_BINNED_GLSL
 
@@ -10,8 +10,8 @@
 #include "voxel/visit.glsl"
 #include "voxel/visit_voxels.glsl"
 
-// Queue of large triangles, stored behind the sums of the scan; long lists use it after all triangles have
-// been visited.
+// The queue of large triangles lies in the scratch pool, behind the sums of the scan. The table of long lists
+// takes its place after all triangles have been visited.
 #define LargeRef VoxelRef
 #define LARGE_WORD(s, place) VOXEL_POOL(s, scratch)[voxel_scan_words(s) + place]
 #define LARGE_HEADER(s) VOXEL_HEADER(s)
@@ -20,14 +20,14 @@
 
 #define bin_built build.structure
 
-// Returns the number of views. Voxels are marked in the view that a triangle faces most, which is the only
-// one if it is kept in no other.
+// Returns the number of views in which a triangle is processed. Voxels are marked in the view that a triangle
+// faces most; with VOXEL_AXES_TRIANGLE that is also the only view that keeps the triangle.
 uint bin_view_count() {
     return VOXEL_AXES == VOXEL_AXES_TRIANGLE ? 1u : AXIS_VIEWS;
 }
 
-// Triangle in a view, with the first and last cell that may keep it; in the pass that marks voxels, the first
-// and last column of voxels.
+// A triangle in a view, with the first and last cell that may keep it; in the pass that marks voxels, with
+// the first and last column of voxels that it may reach into.
 struct Bin {
     uint primitive;
     uint axis;
@@ -36,11 +36,13 @@ struct Bin {
     bool large;
 };
 
+// Loads the posed corners of a triangle. Every triangle is binned, so the result is always true.
 bool bin_load(uint primitive, out BinTriangle triangle) {
     triangle = bin_posed(primitive);
     return true;
 }
 
+// Begins a triangle in a view. Returns false if the pass has nothing to do for the triangle there.
 bool bin_begin(BinTriangle triangle, uint view, out Bin bin) {
     uint faced = axis_of_triangle(triangle.a, triangle.b, triangle.c);
     bin.primitive = triangle.primitive;
@@ -49,7 +51,8 @@ bool bin_begin(BinTriangle triangle, uint view, out Bin bin) {
     vec3 pa = axis_from_world(seen, triangle.a);
     vec3 pb = axis_from_world(seen, triangle.b);
     vec3 pc = axis_from_world(seen, triangle.c);
-    // The margin is half a cell to its sides, and the slack of the tests of overlap for rounding.
+    // The margin is half a cell, from the centre to the sides, and 1/32 of a cell for the rounding that the
+    // tests of overlap allow.
     float beyond = VOXEL_COVERAGE == VOXEL_COVERAGE_CONSERVATIVE ? 0.5 + 1.0 / 32.0 : 0.0;
     bool kept = axis_cells(seen, pa, pb, pc, beyond, bin.lower, bin.upper);
     bin.large = kept && bin_is_large(bin.lower, bin.upper);
@@ -71,6 +74,7 @@ bool bin_begin(BinTriangle triangle, uint view, out Bin bin) {
 #endif
 }
 
+// Visits a cell, or a column of voxels, in place of a fragment invocation of the raster builder.
 void bin_visit(Bin bin, ivec2 place) {
 #if BIN_VISIT == BIN_VISIT_VOXELS
     voxel_visit_voxels(bin.primitive, bin.axis, place);

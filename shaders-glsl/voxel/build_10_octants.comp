@@ -1,6 +1,7 @@
-// Counts the octants of each node of a level that hold something; one dispatch per level, from the lowest of the
-// upper levels to the root.
+// Counts, for each node of a level of the octree, its octants that hold something.
 // Reads: header, voxels, octants. Writes: octants.
+// One invocation per node that the level could have. One dispatch per level, from the lowest of the upper
+// levels to the root; the step of the pass is the level.
 // Source: none; docs/systems/hu.md.
 #version 460
 #include "contract/extensions.glsl"

@@ -1,5 +1,7 @@
-// Stores the octree's nodes: each thread one of the upper levels, and the blocks below it.
-// Reads: header, voxels, octants, which are now the numbers of octants before those of each node. Writes: nodes.
+// Stores the nodes of the octree.
+// Reads: header, voxels, octants. Writes: nodes.
+// One invocation per node that the upper levels could have; it also stores the blocks of voxels below its
+// node. By now the scan has replaced the count of each node by the sum of the counts of all nodes before it.
 // Source: none; docs/systems/hu.md.
 #version 460
 #include "contract/extensions.glsl"
@@ -10,7 +12,8 @@
 
 layout(local_size_x = BUILD_GROUP_SIZE) in;
 
-// Returns the number of octants that hold something in all nodes before one.
+// Returns the number of octants that hold something in all nodes before a node; `count` is the number of
+// nodes that the upper levels could have.
 uint before(uint node, uint count) {
     return node < count ? VOXEL_POOL(build.structure, octants)[node] : VOXEL_HEADER(build.structure).node_demand - 1u;
 }
@@ -27,7 +30,7 @@ void main() {
     }
     uint place = 0u;
     if (node != 0u) {
-        // The node stands behind the siblings before it that hold something.
+        // The node stands behind those of its siblings that come first and hold something.
         uint parent = (node - 1u) / 8u;
         place = before(parent, count) + 1u;
         for (uint sibling = 8u * parent + 1u; sibling < node; sibling++) {

@@ -1,5 +1,6 @@
-// Declares the structure complete, or says what was missing; and stores the number of fragments.
-// Reads: header. Writes: header.status, header.fragments.
+// Writes the status of the build: complete, or overflowed, and whether some lists are too long to be sorted.
+// Also stores the number of fragments.
+// Reads: header, geometry. Writes: header.status, header.fragments. One invocation.
 #version 460
 #include "contract/extensions.glsl"
 #include "ads/build_status.glsl"
@@ -16,7 +17,7 @@ void main() {
         && VOXEL_HEADER(build.structure).large_demand <= VOXEL_HEADER(build.structure).large_capacity;
     bool unsorted = VOXEL_HEADER(build.structure).unsorted > 0u;
     VOXEL_HEADER(build.structure).status = (build_status(fits)) | (unsorted ? STATUS_UNSORTED : 0u);
-    // With pages the fragments have been counted, otherwise they are the demand.
+    // With pages, fragments were counted as they were stored. Otherwise their number is the demand.
     if (VOXEL_STORAGE != VOXEL_STORAGE_PAGED) {
         VOXEL_HEADER(build.structure).fragments = VOXEL_HEADER(build.structure).demand;
     }

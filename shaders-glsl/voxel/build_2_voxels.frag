@@ -1,5 +1,7 @@
-// Marks the voxels that a triangle reaches into, with the axis it faces most, or adds its normal to them.
-// Reads: geometry, header. Writes: voxels, normals, lists (voxels as leaves).
+// Marks the voxels that a triangle reaches into, with the axis that the triangle faces most or with its
+// normal.
+// Reads: geometry, header. Writes: voxels, normals, lists (if voxels are the leaves).
+// One invocation per triangle and column of voxels that build_columns.vert proposes.
 // Source: Frid Kastrati and Goswami section 3.2, voxel generation.
 #version 460
 #include "contract/extensions.glsl"

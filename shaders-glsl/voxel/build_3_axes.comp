@@ -1,5 +1,5 @@
-// The axis of the averaged normal of each occupied voxel: the one it is searched along.
-// Reads: normals. Writes: voxels.
+// Finds the axis along which each occupied voxel is searched: that of the averaged normal of its contents.
+// Reads: voxels, normals. Writes: voxels. One invocation per word of eight voxels.
 // Source: Hu et al. section 3.2; Frid Kastrati and Goswami section 3.2.
 #version 460
 #include "contract/extensions.glsl"
@@ -10,7 +10,6 @@
 
 layout(local_size_x = BUILD_GROUP_SIZE) in;
 
-// One thread per word of eight voxels.
 void main() {
     uint word = build_invocation();
     uint count = voxel_count(build.structure);

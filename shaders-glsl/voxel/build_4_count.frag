@@ -1,8 +1,10 @@
-// The length of the list of each cell, contiguous storage only; where views keep everything, also the
-// normals of voxels.
-// Reads: geometry, header, voxels (one axis per voxel). Writes: lists; voxels and normals.
-// Source: Hu et al. section 3.1, the one geometry pass; counted first, so that lists can be stored
-// contiguously.
+// Counts the fragments in the list of each cell, for contiguous storage only. If every view keeps every
+// triangle, the pass also marks voxels and adds up their normals.
+// Reads: geometry, header, with ALPHA_SCENE the scene; voxels, if a view keeps the fragments of some voxels
+// only. Writes: lists, voxels, normals.
+// One invocation per triangle, view and cell that build_raster.vert proposes.
+// Source: Hu et al. section 3.1, the one geometry pass. Fragments are counted first, so that lists can be
+// stored contiguously.
 #version 460
 #include "contract/extensions.glsl"
 #include "voxel/visit.glsl"

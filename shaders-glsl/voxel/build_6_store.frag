@@ -1,9 +1,11 @@
-// Stores each fragment: its depth, and its triangle or surface attributes, as seen along the
-// triangle's normal. Where views keep everything and nothing was counted before, also the normals of voxels.
-// Reads: geometry, header, voxels (one axis per voxel), with PAYLOAD_ATTRIBUTES the scene. Writes: lists,
-// fragments, header; voxels and normals.
-// Source: Hu et al. section 3.1, the one geometry pass; Frid Kastrati and Goswami section 3.2: in the view of
-// its voxel's axis only.
+// Stores each fragment: its depth along the view, and its triangle or the attributes of its surface. If every
+// view keeps every triangle and no pass counted fragments, the pass also marks voxels and adds up their
+// normals.
+// Reads: geometry, header, with ALPHA_SCENE or PAYLOAD_ATTRIBUTES the scene; voxels, if a view keeps the
+// fragments of some voxels only. Writes: lists, fragments, header, voxels, normals.
+// One invocation per triangle, view and cell that build_raster.vert proposes.
+// Source: Hu et al. section 3.1, the one geometry pass; Frid Kastrati and Goswami section 3.2, fragments only
+// in the view along the axis of their voxel.
 #version 460
 #include "contract/extensions.glsl"
 #include "voxel/visit.glsl"

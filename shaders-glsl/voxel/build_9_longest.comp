@@ -1,6 +1,6 @@
-// The number of fragments of the longest list, where lists are not bisected: a ray may have to read
-// that many entries at a time.
-// Reads: lists, fragments. Writes: header.longest.
+// Finds the length of the longest list, where lists are not bisected. In the worst case a ray reads as many
+// entries at a time.
+// Reads: header, lists, fragments. Writes: header.longest, header.corrupted. One invocation per list.
 // Source: not in the papers, in which rays read lists to their ends, whatever their length.
 #version 460
 #include "contract/extensions.glsl"
@@ -23,7 +23,7 @@ void main() {
         voxel_list_next(build.structure, cursor);
         length++;
     }
-    // Most lists are shorter than one that was found before.
+    // Most lists are shorter than a list that was found before, so most invocations need no atomic operation.
     if (length > VOXEL_HEADER(build.structure).longest) {
         atomicMax(VOXEL_HEADER(build.structure).longest, length < VOXEL_LONGEST_LIMIT ? length : 0xFFFFFFFFu);
     }

@@ -1,5 +1,5 @@
-// Proposes, for each triangle, the columns of voxels that it may reach into, in the view it faces most.
-// Reads: geometry, header. Writes: nothing.
+// Proposes, for each triangle, the columns of voxels that it may reach into, in the view that it faces most.
+// Reads: geometry, header. Writes: nothing. Three vertices per triangle.
 // Source: Frid Kastrati and Goswami section 3.2; a dilated triangle replaces conservative rasterization.
 #version 460
 #include "contract/extensions.glsl"
@@ -21,15 +21,15 @@ void main() {
     geometry_vertices(primitive, a, b, c);
     uint axis = axis_of_triangle(a, b, c);
     primitive_and_axis = uvec2(primitive, axis);
-    // A triangle without area is never hit.
+    // Rays never hit a triangle without area.
     if (!triangle_has_area(a, b, c)) {
         gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
         return;
     }
     AxisView view = AxisView(VOXEL_HEADER(build.structure).lower, VOXEL_HEADER(build.structure).voxel,
         VOXEL_HEADER(build.structure).grid, axis);
-    // The margin covers the centre of every column that the triangle reaches into, with 1/32 of a column for
-    // the hardware's grid.
+    // The margin reaches from a column's centre to a triangle that reaches into the column within
+    // VOXEL_SLACK, with 1/32 of a column for the hardware's sub-pixel grid.
     gl_Position = axis_proposal(view, axis_from_world(view, a), axis_from_world(view, b), axis_from_world(view, c), corner,
         0.5 + VOXEL_SLACK + 1.0 / 32.0);
 }

@@ -1,6 +1,7 @@
-// Proposes, for each triangle and view, the cells whose centres the triangle may cover, or that it may
-// reach into.
-// Reads: geometry, header. Writes: nothing.
+// Proposes, for each triangle and view, the cells whose centres the triangle may cover; with conservative
+// coverage, the cells that it may reach into.
+// Reads: geometry, header. Writes: nothing. Three vertices per triangle. One instance per view, or one in all
+// if a triangle is kept only in the view that it faces most.
 // Source: Hu et al. section 3.1; instances replace the paper's geometry-shader amplification.
 #version 460
 #include "contract/extensions.glsl"
@@ -28,7 +29,8 @@ void main() {
     b = axis_from_world(view, b);
     c = axis_from_world(view, c);
     if (VOXEL_COVERAGE != VOXEL_COVERAGE_HARDWARE) {
-        // The margin is 1/32 for the hardware's grid, and half a cell to its sides.
+        // The margin is 1/32 of a cell for the hardware's sub-pixel grid; with conservative coverage also
+        // half a cell, from the centre to the sides.
         float beyond = VOXEL_COVERAGE == VOXEL_COVERAGE_CONSERVATIVE ? 0.5 : 0.0;
         gl_Position = axis_proposal(view, a, b, c, corner, beyond + 1.0 / 32.0);
     } else {

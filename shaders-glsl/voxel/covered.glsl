@@ -1,8 +1,8 @@
-// Cells of the axis A-buffers that a triangle covers, its depths there, and the voxel that the fragment
-// lies in, the same for every builder.
+// Decides which cells of the axis A-buffers a triangle has a fragment in, and finds the fragment's depth and
+// its voxel; the same for every builder.
 // Reads: geometry, header. Writes: voxels, normals.
-// Where the rasterizer draws there is one instance per view, or one in all where a triangle is drawn only into
-// the view that it faces most; without attachments no layers are needed: the view travels as a varying.
+// The raster builder draws one instance per view, or one in all if a triangle is drawn only into the view
+// that it faces most. Draws have no attachments and so no layers: the view is a varying.
 #ifndef VOXEL_COVERED_GLSL
 #define VOXEL_COVERED_GLSL
 
@@ -20,28 +20,30 @@ void voxel_view_vertices(AxisView view, uint primitive, out vec3 a, out vec3 b, 
     c = axis_from_world(view, c);
 }
 
-// Returns a triangle's unit normal in the frame of its corners.
+// Returns a triangle's unit normal, in the frame of its corners.
 vec3 voxel_unit_normal(vec3 a, vec3 b, vec3 c) {
     vec3 normal = cross(b - a, c - a);
-    // Scaled first, so that no square overflows or vanishes.
+    // The normal is scaled first, so that no square overflows or vanishes.
     float largest = max(abs(normal.x), max(abs(normal.y), abs(normal.z)));
     return largest > 0.0 ? normalize(normal / largest) : vec3(0.0);
 }
 
-// Fragment that an invocation finds in its cell.
+// Fragment of a triangle in a cell.
 struct VoxelFound {
     uint list;            // running index of the cell
-    uint voxel;           // running index of the voxel that the fragment lies in
+    uint voxel;           // running index of the voxel in which the fragment lies
+    // depth, metres; with conservative coverage a word of ads/reached.glsl
     float z;
+    // weights of vertices 1 and 2 at the cell's centre
     vec2 barycentrics;
 };
 
-// Returns the cell of a fragment invocation: the viewport has a border of one.
+// Returns the cell of a fragment invocation. The viewport has a border of one cell.
 ivec2 voxel_cell_at_fragment(vec4 frag_coord) {
     return ivec2(frag_coord.xy) - 1;
 }
 
-// Finds the fragment of a triangle in a cell; false if it has none there.
+// Finds the fragment of a triangle in a cell. Returns false if the triangle has no fragment there.
 bool voxel_fragment(uint primitive, uint axis, ivec2 cell, out VoxelFound found) {
     AxisView view = voxel_view(build.structure, axis);
     vec3 a;
@@ -63,7 +65,8 @@ bool voxel_fragment(uint primitive, uint axis, ivec2 cell, out VoxelFound found)
             return false;
         }
     } else {
-        // With coverage by the rasterizer the depth is that of the plane, within those of the corners.
+        // With coverage by the rasterizer the depth is that of the plane, limited to the depths of the
+        // corners.
         vec3 center = axis_center(view, cell);
         precise vec3 ab = b - a;
         precise vec3 ac = c - a;
@@ -76,8 +79,8 @@ bool voxel_fragment(uint primitive, uint axis, ivec2 cell, out VoxelFound found)
         found.barycentrics = clamp(triangle_barycentrics(vec3(center.xy, found.z), a, b, c), 0.0, 1.0);
     }
     found.list = axis_cell_index(axis, cell, view.resolution);
-    // The values are in voxels. They are precise, like everything that decides whether a fragment is kept: a
-    // pass that counts and one that stores must decide alike.
+    // The place is in voxels. It is precise, like everything that decides whether a fragment is kept, since a
+    // pass that counts and a pass that stores must decide alike.
     float voxels_per_metre = VOXEL_HEADER(build.structure).voxels_per_metre;
     precise vec3 place = vec3(axis_center(view, cell).xy, found.z) * voxels_per_metre;
     ivec3 voxel = clamp(ivec3(floor(place)), ivec3(0), ivec3(VOXEL_HEADER(build.structure).grid) - 1);
@@ -88,7 +91,8 @@ bool voxel_fragment(uint primitive, uint axis, ivec2 cell, out VoxelFound found)
     return true;
 }
 
-// Marks the voxel that contains a fragment, and adds the normal of its triangle.
+// Marks the voxel in which a fragment lies, and adds the normal of the fragment's triangle to the voxel's
+// sum.
 void voxel_fill(uint primitive, VoxelFound found) {
     vec3 a;
     vec3 b;

@@ -7,6 +7,7 @@
 #include "ads/placement.glsl"
 #include "voxel/header.glsl"
 
+// Sets what depends on the bounds, whose corners are in metres relative to the frame origin.
 void voxel_from_bounds(VoxelRef s, vec3 lower, vec3 upper) {
     vec4 cube = cube_placement(lower, upper);
     float side = cube.w;

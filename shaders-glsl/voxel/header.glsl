@@ -1,5 +1,5 @@
-// The header of voxels with axis A-buffers.
-// Reads, writes: header; stages with STRUCTURE_READ_ONLY only read it.
+// Declares the header of voxels with axis A-buffers, and the macro that reaches it.
+// Reads, writes: header. Stages that define STRUCTURE_READ_ONLY only read it.
 #ifndef VOXEL_HEADER_GLSL
 #define VOXEL_HEADER_GLSL
 

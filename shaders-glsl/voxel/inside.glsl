@@ -1,28 +1,34 @@
-// Reads the list of a cell for a point of a ray: how many fragments lie before it, and which one is
-// nearest to it.
+// Reads the list of a cell for a point of a ray: counts the fragments before the point, or finds the fragment
+// that is nearest to it.
 // Reads: header, lists, fragments. Writes: header.corrupted.
-// Source: Hu et al. section 3.2. Sorted lists are entered by bisection, or read up to the point where
-// they are linked; others are read to their end, in dispatches of bounded work. The order of a list has no influence on what is found.
+// Source: Hu et al. section 3.2.
+// A sorted contiguous list is entered by bisection, a sorted linked list is read up to the point, and any
+// other list is read to its end; reading a list can pause. The result does not depend on the order of the
+// list.
 #ifndef VOXEL_INSIDE_GLSL
 #define VOXEL_INSIDE_GLSL
 
 #include "contract/trace_log.glsl"
 #include "voxel/search.glsl"
 
-// Point of the ray in a cell.
+// A point of a ray, and the cell of a view in which it lies.
 struct VoxelPoint {
     float t;
     ivec2 cell;
+    // running index of the cell over all views
     uint list;
+    // depth of the point in the view, metres
     float depth;
 };
 
+// Returns the point of a ray at t, which lies in a cell of the traversal's view.
 VoxelPoint voxel_point(VoxelRef s, VoxelTraversal traversal, float t, ivec2 cell) {
     uint list = axis_cell_index(traversal.axis, cell, VOXEL_HEADER(s).resolution);
     return VoxelPoint(t, cell, list, traversal.origin[traversal.axis] + t * traversal.direction[traversal.axis]);
 }
 
-// Returns the first fragment of a sorted list that lies at a depth or beyond.
+// Returns the place of the first fragment of a sorted list whose depth is `depth` or more; the list's end if
+// there is none.
 uint voxel_first_from(VoxelRef s, uvec2 list, float depth, inout TraceState state, inout uint work) {
     uint place = voxel_bisect(s, list, depth, state, work);
     for (uint k = 0u; k < VOXEL_BISECT_FROM && place < list.y; k++) {
@@ -34,7 +40,8 @@ uint voxel_first_from(VoxelRef s, uvec2 list, float depth, inout TraceState stat
     return place;
 }
 
-// Returns the depths, excluding the second, at which fragments count for points of the traversal's voxel.
+// Returns the range of depths in which fragments count for points of the traversal's voxel. The second depth
+// is excluded.
 vec2 voxel_counted_depths(VoxelRef s, VoxelTraversal traversal) {
     if (VOXEL_INSIDE == VOXEL_INSIDE_COLUMN) {
         return vec2(-3.0e38, 3.0e38);
@@ -43,7 +50,7 @@ vec2 voxel_counted_depths(VoxelRef s, VoxelTraversal traversal) {
     return vec2(slice, slice + 1.0) * VOXEL_HEADER(s).voxel;
 }
 
-// Returns the part of a sorted list that counts.
+// Returns the part of a sorted list that lies in the range of depths that count.
 uvec2 voxel_counted(VoxelRef s, uvec2 list, vec2 depths, inout TraceState state, inout uint work) {
     if (VOXEL_INSIDE == VOXEL_INSIDE_COLUMN) {
         return list;
@@ -53,9 +60,9 @@ uvec2 voxel_counted(VoxelRef s, uvec2 list, vec2 depths, inout TraceState state,
     return list;
 }
 
-// Replaces the nearest fragment to a point by this one if it is nearer in depth. Of fragments at equal
-// distance the one before the point is nearer, and on one side the one that comes first. This is a total
-// order, so that the order of reading has no influence.
+// Makes a fragment the nearest one to a point if it is nearer in depth than the fragment that is held. Of two
+// fragments at equal distance, the one before the point counts as nearer; on the same side, the one that
+// comes first in sorted lists. This is a total order, so the order of reading does not matter.
 void voxel_hold_nearer(VoxelRef s, float depth, uint place, float z, inout uint held, inout float held_z) {
     if (held == VOXEL_NO_PLACE) {
         held = place;
@@ -68,7 +75,7 @@ void voxel_hold_nearer(VoxelRef s, float depth, uint place, float z, inout uint 
     float held_away = held_before ? depth - held_z : held_z - depth;
     bool nearer = away < held_away;
     if (away == held_away) {
-        // Rounded distances may be equal where depths are not.
+        // Rounded distances may be equal although the depths differ.
         bool farther = before ? z < held_z : z > held_z;
         nearer = before != held_before ? before : !farther && (z != held_z || voxel_comes_first(s, place, held));
     }
@@ -78,15 +85,15 @@ void voxel_hold_nearer(VoxelRef s, float depth, uint place, float z, inout uint 
     }
 }
 
-// Returns the nearest fragment of sorted lists, of which only the last before the point and the first at or
-// after it are read.
+// Returns the fragment of a sorted list that is nearest to a depth. Only the last fragment before the depth
+// and the first one at or behind it are read.
 uint voxel_nearest_sorted(VoxelRef s, uvec2 list, float depth, inout TraceState state, inout uint work) {
     uint held = VOXEL_NO_PLACE;
     float held_z = 0.0;
     uint first = voxel_first_from(s, list, depth, state, work);
     if (first > list.x) {
         float z = voxel_read(s, first - 1u, state, work);
-        // The first of several fragments at one depth.
+        // Several fragments may have this depth: the first of them is taken.
         uint place = voxel_first_from(s, uvec2(list.x, first), z, state, work);
         voxel_hold_nearer(s, depth, place, z, held, held_z);
     }
@@ -96,8 +103,9 @@ uint voxel_nearest_sorted(VoxelRef s, uvec2 list, float depth, inout TraceState 
     return held;
 }
 
-// Counts the fragments of a point's cell that lie before it, or finds the nearest one, in traversal.odd or
-// traversal.held. Returns true if the work budget ended first.
+// Reads the list of a point's cell. With `nearest` it leaves the nearest fragment in traversal.held;
+// otherwise it leaves in traversal.odd whether an odd number of fragments lies before the point. Returns true
+// if the work budget ended before the list.
 bool voxel_read_list(VoxelRef s, VoxelPoint point, bool nearest, inout VoxelTraversal traversal, inout TraceState state,
     inout uint work) {
     if (!traversal.in_list) {
@@ -141,7 +149,7 @@ bool voxel_read_list(VoxelRef s, VoxelPoint point, bool nearest, inout VoxelTrav
         } else if (counts && z < point.depth) {
             traversal.odd = !traversal.odd;
         }
-        // In a sorted list, the following fragments are no nearer and not before the point.
+        // In a sorted list, the fragments that follow are not nearer and not before the point.
         if (sorted && z >= point.depth) {
             break;
         }

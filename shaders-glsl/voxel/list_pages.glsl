@@ -1,6 +1,6 @@
-// The pages of the views: where they are.
+// Finds the pages of the views' lists, for the functions of ads/pages.glsl.
 // Reads, writes: lists, fragments, header.demand.
-// Source: Frid Kastrati and Goswami section 3.2; see ads/pages.glsl, which needs no lock.
+// Source: Frid Kastrati and Goswami section 3.2; ads/pages.glsl needs no lock.
 #ifndef VOXEL_LIST_PAGES_GLSL
 #define VOXEL_LIST_PAGES_GLSL
 

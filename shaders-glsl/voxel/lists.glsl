@@ -1,20 +1,21 @@
-// The list of a cell, in one of three storages: how a fragment is put into it, and how it is read.
+// Puts fragments into the list of a cell and reads such a list, in each of three storages.
 // Reads, writes: lists, fragments, header.demand, header.fragments, header.corrupted.
 // Source: Hu et al. section 3.1, linked lists in one pass; Frid Kastrati and Goswami section 3.2, pages of
-// several.
+// several fragments.
 //
-// The word of a list:
-// - contiguous: first its length, then the place of the next fragment, and once all is stored the end of its fragments;
-//   they begin where those of the list before it end
-// - linked: a link to the newest
-// - paged: the word that leads to the newest page
-// A link is a place + 1; 0 is none.
+// Each list has one word in the pool of lists:
+// - Contiguous: at first the length of the list. The scan turns it into the place of the list's next
+//   fragment. Once all fragments are stored, it is the end of the list, and the list begins where the one
+//   before it ends.
+// - Linked: the link of the fragment that was stored last.
+// - Paged: the word that leads to the page that was begun last.
+// A link is a place + 1, and 0 is no place.
 #ifndef VOXEL_LISTS_GLSL
 #define VOXEL_LISTS_GLSL
 
 #include "voxel/list_pages.glsl"
 
-// Value for the absence of a place.
+// Value that stands for no place.
 #define VOXEL_NO_PLACE 0xFFFFFFFFu
 
 // Adds one to the length of a contiguous list.
@@ -22,7 +23,8 @@ void voxel_list_count_one(VoxelRef s, uint list) {
     atomicAdd(VOXEL_POOL(s, lists)[list], 1u);
 }
 
-// Takes a place for a fragment of a list; VOXEL_NO_PLACE beyond the capacity, which is counted.
+// Takes a place for a fragment of a list. Beyond the capacity the fragment is only counted, and the result is
+// VOXEL_NO_PLACE.
 uint voxel_allocate(VoxelRef s, uint list) {
     uint capacity = VOXEL_HEADER(s).capacity;
     if (voxel_paged()) {
@@ -34,15 +36,15 @@ uint voxel_allocate(VoxelRef s, uint list) {
     return place < capacity ? place : VOXEL_NO_PLACE;
 }
 
-// Links a place in front of its list, if fragments are linked.
+// Puts a place at the front of its list, if fragments are linked.
 void voxel_link(VoxelRef s, uint list, uint place) {
     if (!voxel_contiguous() && !voxel_paged()) {
         voxel_set_word(s, place, voxel_stride(), atomicExchange(VOXEL_POOL(s, lists)[list], place + 1u));
     }
 }
 
-// Returns begin and end of the fragments of a contiguous list. A list that leaves the pool is counted and is
-// empty.
+// Returns the places at which the fragments of a contiguous list begin and end. A list that reaches beyond
+// the pool is counted as corrupted and treated as empty.
 uvec2 voxel_list(VoxelRef s, uint list) {
     if (list >= voxel_list_count(s)) {
         return uvec2(0u);
@@ -56,21 +58,22 @@ uvec2 voxel_list(VoxelRef s, uint list) {
     return uvec2(begin, end);
 }
 
-// Cursor of a list that is being read.
+// Cursor of a list that is being read. A linked or paged list that is damaged may be a cycle, for which
+// `mark` and the members below it watch.
 struct VoxelCursor {
-    uint link;            // the next fragment; 0 at the end
-    uint last;            // the one that ends the list, contiguous only
-    uint mark;            // a link that has been passed; the others only
+    uint link;            // link of the next fragment; 0 at the end
+    uint last;            // link of the fragment that ends the list; contiguous only
+    uint mark;            // a link that was passed; linked and paged only
     uint left;            // links until the mark moves on
-    uint reach;           // and those until it moves on after that
+    uint reach;           // links between the last two moves of the mark
 };
 
-// Resumes a list at a link.
+// Returns a cursor that goes on at a link of a list.
 VoxelCursor voxel_list_resume(VoxelRef s, uint list, uint link) {
     return VoxelCursor(link, voxel_contiguous() ? voxel_list(s, list).y : 0u, link, 1u, 1u);
 }
 
-// Begins a list.
+// Returns a cursor at the beginning of a list.
 VoxelCursor voxel_list_begin(VoxelRef s, uint list) {
     if (voxel_contiguous()) {
         uvec2 range = voxel_list(s, list);
@@ -80,8 +83,8 @@ VoxelCursor voxel_list_begin(VoxelRef s, uint list) {
     return voxel_list_resume(s, list, voxel_paged() ? page_link(s, word) : word);
 }
 
-// Ends a list that returns to the mark, and counts it. The mark moves on after twice as many links as
-// before (Brent 1980), so every cycle is found within three times its links.
+// Ends a list that returns to the cursor's mark, and counts it as corrupted. The mark moves on after twice as
+// many links each time (Brent 1980), so a cycle is found within three times its links.
 void voxel_list_guard(VoxelRef s, inout VoxelCursor cursor) {
     if (cursor.link == cursor.mark) {
         atomicAdd(VOXEL_HEADER(s).corrupted, 1u);
@@ -93,8 +96,8 @@ void voxel_list_guard(VoxelRef s, inout VoxelCursor cursor) {
     }
 }
 
-// Returns the place of the next fragment of a list that has not ended. A link past the end is counted, ends
-// the list and gives VOXEL_NO_PLACE.
+// Returns the place of the next fragment of a list that has not ended. A link beyond the pool is counted as
+// corrupted, ends the list and gives VOXEL_NO_PLACE.
 uint voxel_list_next(VoxelRef s, inout VoxelCursor cursor) {
     uint place = cursor.link - 1u;
     if (place >= voxel_stored(s)) {

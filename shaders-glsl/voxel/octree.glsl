@@ -1,29 +1,30 @@
-// A sparse octree over the voxels: what it says of a voxel, and where its build keeps what.
-// Reads: header, voxels and octants (build), nodes. Writes: header.corrupted.
-// Source: child masks with one pointer after Laine and Karras 2010; each voxel is looked up from the root, as Crassin et al.
-// 2009 do it.
+// A sparse octree over the voxels: how traces look a voxel up, and how the build numbers nodes.
+// Reads: header; nodes (traces); voxels (build). Writes: header.corrupted.
+// Source: child masks with one pointer after Laine and Karras 2010; each voxel is looked up from the root, as
+// Crassin et al. 2009 do it.
 //
-// A node of the upper levels is a word: in its low 8 bits which of its octants hold something, above them the place of the
-// first of these, which the others follow in order. A node of the last level is a block of 2x2x2 voxels: a word with the
-// bits of each. An octant is a number of three bits: whether it is the upper one along x, y and z.
-// The build numbers all nodes that could be, level by level and in each in the order of octants: those of node k are
-// 8 k + 1 to 8 k + 8.
+// An octant of a node is a number of three bits, which say whether it is the upper one along x, y and z.
+// A node of the upper levels is one word. Its low 8 bits say which of its octants hold something. The bits
+// above them are the place of the first of these octants' nodes; the others follow in order.
+// A node of the last level is a block of 2x2x2 voxels: one word with the bits of each voxel.
+// The build numbers all nodes that there could be, level by level, and within a level in the order of
+// octants. The nodes below node k have the numbers 8 k + 1 to 8 k + 8.
 #ifndef VOXEL_OCTREE_GLSL
 #define VOXEL_OCTREE_GLSL
 
 #include "voxel/accessors.glsl"
 
-// Returns the lowest number of a level, which is the number of nodes above the level.
+// Returns the lowest number of a node of a level, which is the number of nodes in all levels above.
 uint octree_first(uint level) {
     return ((1u << (3u * level)) - 1u) / 7u;
 }
 
-// Returns the largest number of nodes of the upper levels.
+// Returns the number of nodes that the upper levels could have.
 uint octree_upper_count(VoxelRef s) {
     return octree_first(VOXEL_HEADER(s).levels - 1u);
 }
 
-// Returns the bits of the voxels of a block, by its number in the last level.
+// Returns the bits of all voxels of a block; `number` counts the blocks of the last level.
 uint octree_block(VoxelRef s, uint number) {
     ivec3 block = ivec3(0);
     for (uint bit = 0u; bit + 1u < VOXEL_HEADER(s).levels; bit++) {
@@ -37,7 +38,8 @@ uint octree_block(VoxelRef s, uint number) {
     return word;
 }
 
-// Returns a node's word; that of a node without octants if the pool ends before the node, which is counted.
+// Returns the word of a node. A place beyond the pool is counted as corrupted and gives 0, a node without
+// octants.
 uint octree_node(VoxelRef s, uint place) {
     if (place >= min(VOXEL_HEADER(s).node_capacity, VOXEL_HEADER(s).node_demand)) {
         atomicAdd(VOXEL_HEADER(s).corrupted, 1u);
@@ -46,8 +48,8 @@ uint octree_node(VoxelRef s, uint place) {
     return VOXEL_POOL(s, nodes)[place];
 }
 
-// Returns the bits of a voxel. If they are zero, the voxel lies in a block of 2^level voxels along a side
-// that holds nothing. `read` is the number of nodes read.
+// Returns the bits of a voxel. If they are zero, nothing lies in the block of 2^level voxels along a side
+// that contains the voxel. `read` is the number of nodes that were read.
 uint octree_bits(VoxelRef s, ivec3 voxel, out uint level, out uint read) {
     uint place = 0u;
     read = 0u;

@@ -1,9 +1,9 @@
-// Searches one voxel along one axis for the first point at which a ray goes from outside to inside or back, a
-// point being inside where an odd number of fragments lies before it in its cell.
+// Searches one voxel along one axis for the first point at which a ray passes from outside to inside a solid,
+// or back. A point is inside if an odd number of fragments lies before it in its cell.
 // Reads: header, lists, fragments. Writes: header.corrupted.
-// Source: Hu et al. section 3.2: a few steps from where the ray enters to where it leaves, or one per cell,
-// then bisection, which occlusion rays do not need. As published, surfaces are assumed to be closed, and a voxel to
-// hold one smooth surface.
+// Source: Hu et al. section 3.2. A few steps lead from where the ray enters the voxel to where it leaves it,
+// or one step per cell. Bisection follows, which occlusion rays do not need. As published, the search assumes
+// that surfaces are closed and that a voxel holds one smooth surface.
 // The order of fragments in their lists only changes how many of them are read.
 #ifndef VOXEL_PARITY_GLSL
 #define VOXEL_PARITY_GLSL
@@ -11,35 +11,36 @@
 #include "ads/stored_words.glsl"
 #include "voxel/inside.glsl"
 
-// Stage of the search, which a paused ray keeps in two bits: the fragments before the point where the ray
-// enters the voxel are counted.
+// Stages of the search, which a paused ray keeps in two bits. Enter: the fragments before the point where the
+// ray enters the voxel are counted.
 #define VOXEL_STAGE_ENTER 0u
-// Stage of the search: the fragments before the far point of a step are counted.
+// Step: the fragments before the far point of a step are counted.
 #define VOXEL_STAGE_STEP 1u
-// Stage of the search: the fragments before the middle between two points, of which one is inside, are
-// counted; once all halvings are done, the fragment nearest to the far point is searched.
+// Halve: the fragments before the middle between two points are counted, of which one is inside and one
+// outside. Once all halvings are done, the fragment nearest to the far point is searched.
 #define VOXEL_STAGE_HALVE 2u
-// Stage of the search: the fragment nearest to the near point is searched, since the cell of the far point is
-// empty.
+// Near: the fragment nearest to the near point is searched, because the cell of the far point is empty.
 #define VOXEL_STAGE_NEAR 3u
 
-// Value of `halvings` once all are done.
+// Value from which `halvings` says that all halvings are done.
 #define VOXEL_HALVED (1u << VOXEL_REFINEMENTS)
 
-// Part of the ray that a step crosses; a span that is refined shrinks.
+// Part of a ray that a step crosses, from a near point (before) to a far point (after). A span that is
+// refined shrinks.
 struct VoxelSpan {
     float t_before;
     float t_after;
     ivec2 cell_after;
 };
 
+// Returns the cell of the traversal's view in which the ray is at t.
 ivec2 voxel_cell_at(VoxelRef s, VoxelTraversal traversal, float t) {
     vec3 p = triangle_permute(traversal.origin + t * traversal.direction,
         traversal.axis) * VOXEL_HEADER(s).cells_per_metre;
     return ivec2(clamp(floor(p.xy), vec2(0.0), vec2(float(VOXEL_HEADER(s).resolution) - 1.0)));
 }
 
-// Returns the part of the ray that the traversal's step crosses, within a segment of it.
+// Returns the part of the ray that the traversal's step crosses, within a t interval of the ray.
 VoxelSpan voxel_span(VoxelRef s, VoxelTraversal traversal, vec2 interval) {
     if (VOXEL_MARCH == VOXEL_MARCH_SAMPLES) {
         float length = interval.y - interval.x;
@@ -52,7 +53,7 @@ VoxelSpan voxel_span(VoxelRef s, VoxelTraversal traversal, vec2 interval) {
         traversal.cells.cell.xy);
 }
 
-// Takes the middle of a span as its far or its near point.
+// Makes the middle of a span its far point, or its near point.
 void voxel_halve(VoxelRef s, VoxelTraversal traversal, bool takes_far, inout VoxelSpan span) {
     float t = 0.5 * (span.t_before + span.t_after);
     if (takes_far) {
@@ -63,7 +64,7 @@ void voxel_halve(VoxelRef s, VoxelTraversal traversal, bool takes_far, inout Vox
     }
 }
 
-// Returns the point whose cell the traversal's stage reads.
+// Returns the point whose cell is read in the traversal's stage.
 VoxelPoint voxel_stage_point(VoxelRef s, VoxelTraversal traversal, vec2 interval, VoxelSpan span) {
     if (traversal.stage == VOXEL_STAGE_ENTER) {
         return voxel_point(s, traversal, interval.x, traversal.cells.cell.xy);
@@ -78,7 +79,7 @@ VoxelPoint voxel_stage_point(VoxelRef s, VoxelTraversal traversal, vec2 interval
     return voxel_point(s, traversal, span.t_after, span.cell_after);
 }
 
-// True if a ray passes a fragment because it meets the back of its triangle.
+// True if a ray passes through a fragment, because it meets the back of the fragment's triangle.
 bool voxel_is_passed(VoxelRef s, Ray ray, uint primitive, uint place) {
     if (!ray_culls_back_faces(ray)) {
         return false;
@@ -89,13 +90,13 @@ bool voxel_is_passed(VoxelRef s, Ray ray, uint primitive, uint place) {
     return back_face_is_passed_by_plane(ray, primitive);
 }
 
-// Tests the triangle of the traversal's nearest fragment as the best hit, in the middle of a span; true if it
+// Tests the nearest fragment that the traversal holds, as a hit in the middle of a span. Returns true if it
 // becomes the best hit.
 bool voxel_take(VoxelRef s, Ray ray, VoxelTraversal traversal, VoxelSpan span, float depth, inout TraceState state) {
     uint place = traversal.held;
     uint primitive = place == VOXEL_NO_PLACE ? PRIMITIVE_NONE : voxel_primitive(s, place);
     float t = 0.5 * (span.t_before + span.t_after);
-    // A fragment without an id cannot be the triangle that is excluded.
+    // A fragment without an id cannot be the triangle that the ray excludes.
     bool excluded = primitive != PRIMITIVE_UNKNOWN && primitive == ray.exclude_primitive;
     uint verdict = primitive == PRIMITIVE_NONE ? TEST_OUTSIDE : (excluded ? TEST_EXCLUDED
         : (!(t > ray.t_min) ? TEST_BEFORE : (!(t < ray.t_max) ? TEST_BEYOND
@@ -107,7 +108,7 @@ bool voxel_take(VoxelRef s, Ray ray, VoxelTraversal traversal, VoxelSpan span, f
     if (verdict != TEST_ACCEPTED) {
         return false;
     }
-    // The triangle of a mirror is known, and the surface is the fragment's.
+    // With payload mirror the hit names the triangle, but its surface is that of the fragment.
     vec2 found = uintBitsToFloat(uvec2(place, VOXEL_PAYLOAD == VOXEL_PAYLOAD_MIRROR ? HIT_STORED : 0u));
     if (VOXEL_PAYLOAD == VOXEL_PAYLOAD_INDEX) {
         found = plane_barycentrics(primitive, ray.origin + t * ray.direction);
@@ -117,12 +118,12 @@ bool voxel_take(VoxelRef s, Ray ray, VoxelTraversal traversal, VoxelSpan span, f
     return true;
 }
 
-// Goes to the next step; false at the end of the voxel.
+// Goes to the next step. Returns false at the end of the voxel.
 bool voxel_next_step(VoxelRef s, vec2 interval, inout VoxelTraversal traversal, inout VoxelSpan span) {
     traversal.step++;
     bool more = VOXEL_MARCH == VOXEL_MARCH_SAMPLES ? traversal.step < VOXEL_HEADER(s).samples
         : grid_next(traversal.cells);
-    // Only samples are counted by steps, and not beyond the range that a paused ray can keep.
+    // Only samples are numbered by steps: the word of a paused ray has no room for the number of cells.
     traversal.step = VOXEL_MARCH == VOXEL_MARCH_SAMPLES ? traversal.step : 0u;
     traversal.cell = traversal.cells.cell;
     traversal.stage = VOXEL_STAGE_STEP;
@@ -130,8 +131,8 @@ bool voxel_next_step(VoxelRef s, vec2 interval, inout VoxelTraversal traversal, 
     return more;
 }
 
-// Continues after the list that the traversal's stage has read; false at the end of the voxel, or at the
-// first crossing that counts, which is the nearest.
+// Goes on after the list that the traversal's stage has read. Returns false at the end of the voxel, and at
+// the first crossing that counts, which is the nearest.
 bool voxel_next_stage(VoxelRef s, Ray ray, vec2 interval, float depth, bool any_hit, inout VoxelTraversal traversal,
     inout VoxelSpan span, inout TraceState state) {
     if (traversal.stage == VOXEL_STAGE_ENTER) {
@@ -143,8 +144,9 @@ bool voxel_next_stage(VoxelRef s, Ray ray, vec2 interval, float depth, bool any_
         if (traversal.odd == traversal.inside) {
             return voxel_next_step(s, interval, traversal, span);
         }
-        // An occlusion ray has its hit: the crossing lies between the points, and these between the ray's ends.
-        // Where fragments have a triangle, it may be the one that the ray excludes. The ray may pass backs.
+        // An occlusion ray has its hit: the crossing lies between the two points, and these lie between the
+        // ends of the ray. Two cases need the fragment itself: where fragments have a triangle, it may be the
+        // one that the ray excludes; and the ray may pass backs.
         if (any_hit && VOXEL_PAYLOAD == VOXEL_PAYLOAD_MATERIAL && !ray_culls_back_faces(ray)) {
             state.best = Hit(0.5 * (span.t_before + span.t_after), PRIMITIVE_UNKNOWN, 0.0, 0.0);
             return false;
@@ -170,7 +172,7 @@ bool voxel_next_stage(VoxelRef s, Ray ray, vec2 interval, float depth, bool any_
     return voxel_next_step(s, interval, traversal, span);
 }
 
-// Searches the traversal's voxel in the traversal's view. True if the work budget ended first.
+// Searches the traversal's voxel in the traversal's view. Returns true if the work budget ended before.
 bool voxel_search_parity(VoxelRef s, Ray ray, bool any_hit, inout VoxelTraversal traversal, inout TraceState state,
     inout uint work) {
     vec2 interval = vec2(max(traversal.voxels.t_in, ray.t_min), min(traversal.voxels.t_out, ray.t_max));

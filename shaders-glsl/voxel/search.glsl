@@ -1,7 +1,7 @@
-// Searches one voxel along one axis for the nearest fragment whose plane a ray hits.
+// Searches one voxel along one axis for the nearest fragment whose plane, or triangle, a ray hits.
 // Reads: header, lists, fragments, geometry. Writes: header.corrupted.
-// Source: Hu et al. section 3.2, 2D-DDA; planes instead of the parity of depths. The order of lists only
-// skips fragments that the depths would refuse, so hits do not depend on it.
+// Source: Hu et al. section 3.2, 2D-DDA. Planes replace the parity of depths. The order of lists only leaves
+// out fragments whose depths would be refused, so hits do not depend on it.
 #ifndef VOXEL_SEARCH_GLSL
 #define VOXEL_SEARCH_GLSL
 
@@ -11,11 +11,12 @@
 #include "ads/reached.glsl"
 #include "voxel/traversal.glsl"
 
+// True if all lists are sorted.
 bool voxel_lists_sorted(VoxelRef s) {
     return VOXEL_SORT != 0u && VOXEL_HEADER(s).unsorted == 0u;
 }
 
-// Reads the depth of a fragment.
+// Returns the depth of a fragment. The read is counted and logged as the read of a list entry.
 float voxel_read(VoxelRef s, uint place, inout TraceState state, inout uint work) {
     float z = voxel_z(s, place);
     state.entries++;
@@ -24,10 +25,9 @@ float voxel_read(VoxelRef s, uint place, inout TraceState state, inout uint work
     return z;
 }
 
-// Returns the first fragment of a sorted list that lies at a depth or beyond, or a place a few steps before
-// it.
+// Returns the place of the first fragment of a sorted list whose depth is `depth` or more, or a place at most
+// VOXEL_BISECT_FROM steps before it.
 uint voxel_bisect(VoxelRef s, uvec2 list, float depth, inout TraceState state, inout uint work) {
-    // Each step halves the remaining part.
     for (uint k = 0u; k < 32u && list.y - list.x > VOXEL_BISECT_FROM; k++) {
         uint middle = list.x + (list.y - list.x) / 2u;
         float z = voxel_read(s, middle, state, work);
@@ -36,7 +36,8 @@ uint voxel_bisect(VoxelRef s, uvec2 list, float depth, inout TraceState state, i
     return list.x;
 }
 
-// Searches the list of the traversal's cell over the ray's segment in it. True if the work budget ended first.
+// Searches the list of the traversal's cell for the ray's t interval in the cell. Returns true if the work
+// budget ended before.
 bool voxel_search_list(VoxelRef s, Ray ray, vec2 interval, inout VoxelTraversal traversal, inout TraceState state,
     inout uint work) {
     uint resolution = VOXEL_HEADER(s).resolution;
@@ -44,11 +45,11 @@ bool voxel_search_list(VoxelRef s, Ray ray, vec2 interval, inout VoxelTraversal 
     uint index = axis_cell_index(traversal.axis, traversal.cell.xy, resolution);
     VoxelCursor cursor = traversal.in_list ? voxel_list_resume(s, index, traversal.link) : voxel_list_begin(s, index);
     bool sorted = voxel_lists_sorted(s);
-    // The depths are those at the cell's centre to search. If a triangle faces its view most, its plane rises
-    // by at most one cell from the centre to a corner. One more cell finds triangles that the ray hits in the
-    // next cell, whose centre they may not cover. If cells keep everything that reaches into them, the next
-    // cell has these triangles itself, and slivers whose planes rounding may have turned are first in their
-    // lists and tested at all depths.
+    // `low` and `high` are the depths to search, at the cell's centre. The plane of a triangle that faces its
+    // view most rises by at most one cell from the centre to a corner of the cell. One more cell finds
+    // triangles that the ray hits in the next cell, whose centre they may not cover. With conservative
+    // coverage the next cell keeps these triangles itself; slivers whose planes rounding may have turned come
+    // first in their lists and are tested at any depth.
     float origin_z = traversal.origin[traversal.axis];
     float direction_z = traversal.direction[traversal.axis];
     float z_in = origin_z + interval.x * direction_z;
@@ -73,7 +74,7 @@ bool voxel_search_list(VoxelRef s, Ray ray, vec2 interval, inout VoxelTraversal 
     }
     traversal.in_list = false;
     while (true) {
-        // The next fragment is found in a loop of its own: rays that run together test theirs together.
+        // A loop of its own finds the next fragment, so that rays that run together also test together.
         bool found = false;
         uint place = VOXEL_NO_PLACE;
         while (!found && cursor.link != 0u && work < work_budget) {
@@ -90,8 +91,8 @@ bool voxel_search_list(VoxelRef s, Ray ray, vec2 interval, inout VoxelTraversal 
                 trace_log(STEP_SKIP, SKIP_PAST, 0u, 0u, low, high);
                 return false;
             }
-            // With conservative coverage the last two bits of a depth hold the reach of the triangle's depths
-            // from it.
+            // With conservative coverage the last two bits of a depth say how far the triangle's depths reach
+            // from it. `low` and `high` allow for a whole cell; `less` is what they reach less.
             float less = triangles ? width * reached_less(z) : 0.0;
             found = anywhere || !(z < low + less || z > high - less);
             if (!found) {
@@ -114,7 +115,7 @@ bool voxel_search_list(VoxelRef s, Ray ray, vec2 interval, inout VoxelTraversal 
     }
 }
 
-// Searches the traversal's voxel in the traversal's view. True if the work budget ended first.
+// Searches the traversal's voxel in the traversal's view. Returns true if the work budget ended before.
 bool voxel_search(VoxelRef s, Ray ray, vec2 interval, bool any_hit, inout VoxelTraversal traversal,
     inout TraceState state,
     inout uint work) {

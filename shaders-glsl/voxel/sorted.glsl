@@ -1,5 +1,6 @@
-// The elements of a contiguous list, and the links of a linked one, for the shared sorts: fragments by depth, ties by
-// triangle or by their payload.
+// Defines the lists of axis A-buffers for the shared sorts of ads/sort_lists.glsl: the elements of a
+// contiguous list, and the links of a linked list. Fragments are sorted by depth, at equal depth by triangle
+// or payload.
 // Reads, writes: lists, fragments, scratch, header.long_demand, header.unsorted.
 // Source: Hu et al. section 3.1, sort pass.
 #ifndef VOXEL_SORTED_GLSL
@@ -11,19 +12,20 @@
 #include "ads/build_constants.glsl"
 
 #define SORT_HEADER(s) VOXEL_HEADER(s)
-// Table of long lists, behind the sums of the scan.
+// The table of long lists lies in the scratch pool, behind the sums of the scan.
 #define SORT_WORD(s, place) VOXEL_POOL(s, scratch)[voxel_scan_words(s) + (place)]
 #define SORT_LIMIT SHORT_LIST_LIMIT
 #define SORT_LONG_LIMIT LONG_LIST_LIMIT
 #define SORT_LINKED (!voxel_contiguous())
-// Links are places + 1. A fragment's link is after its other words.
+// A link is a place + 1. The link of a fragment is behind its other words.
 #define LINKED_DOUBLY false
 
-// Structure of the list that is sorted, since the functions of the shared sort know elements by their number.
+// Structure and first place of the list that is being sorted. The functions of the shared sort know an
+// element only by its number in the list.
 VoxelRef sorted_structure;
 uint sorted_from;
 
-// True if of two fragments the left one comes first, by depth.
+// True if the left one of two fragments comes first in sorted lists.
 bool sort_places_before(VoxelRef s, uint left, uint right) {
     float left_z = voxel_z(s, left);
     float right_z = voxel_z(s, right);
@@ -53,7 +55,7 @@ void linked_set_next(VoxelRef s, uint link, uint next) { voxel_set_word(s, link 
 
 void linked_set_prev(VoxelRef s, uint link, uint prev) {}
 
-// True if the left fragment comes first; if words are equal, the one that was stored first.
+// True if the left fragment comes first. If all words are equal, this is the fragment that was stored first.
 bool linked_comes_first(VoxelRef s, uint left, uint right) {
     return sort_places_before(s, left - 1u, right - 1u)
         || (left < right && !sort_places_before(s, right - 1u, left - 1u));

@@ -1,7 +1,9 @@
-// The surface at a hit of the axis A-buffers.
-// Reads: the scene (payload index, and what emits), fragments (the others). Writes: header.corrupted.
-// A hit names a triangle and the barycentrics of the point on its plane; they may lie outside the triangle by up to a
-// cell, or voxel, and are clamped to its nearest edge for shading, while the position stays on the ray.
+// Finds the surface at a hit of the axis A-buffers.
+// Reads: with payload index the scene; with other payloads fragments, and the scene for fragments that emit.
+// Writes: header.corrupted.
+// With payload index, a hit names a triangle and the barycentrics of the hit point on the triangle's plane.
+// The point may lie outside the triangle by up to a cell, or a voxel. It is then shaded as the nearest edge
+// of the triangle, but its position stays on the ray.
 #ifndef VOXEL_SURFACE_GLSL
 #define VOXEL_SURFACE_GLSL
 
@@ -14,7 +16,7 @@ Surface voxel_surface_at(VoxelRef s, Ray ray, Hit hit) {
     if (stored) {
         uint place = floatBitsToUint(hit.a);
         if (place >= voxel_stored(s)) {
-            // A hit with an invalid fragment is counted.
+            // A hit with an invalid fragment is counted as corrupted.
             atomicAdd(VOXEL_HEADER(s).corrupted, 1u);
             return surface_miss(ray);
         }
@@ -25,7 +27,7 @@ Surface voxel_surface_at(VoxelRef s, Ray ray, Hit hit) {
         }
         hit = stored_triangle_hit(emitter, ray, hit.t);
     }
-    // With parity, the point is known to within a cell; with voxels as leaves, to within a voxel.
+    // With parity, the position is known to within a cell; with voxels as leaves, to within a voxel.
     bool is_near = stored || VOXEL_ACCEPT == VOXEL_ACCEPT_PARITY || VOXEL_LEAVES == VOXEL_LEAVES_VOXELS;
     return stored_triangle_surface(ray, hit, is_near, size);
 }

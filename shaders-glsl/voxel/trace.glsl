@@ -1,5 +1,5 @@
-// Follows a ray through the voxels, over those that an octree says are empty, and searches the occupied ones along
-// their axes.
+// Follows a ray through the voxels, and searches the occupied ones along their axes. With an octree, the ray
+// skips blocks of empty voxels.
 // Reads: all pools, geometry. Writes: header.corrupted.
 // Source: Hu et al. section 3.2; voxels as leaves: section 5.2, voxel grids alone.
 #ifndef VOXEL_TRACE_GLSL
@@ -12,8 +12,8 @@
 #include "voxel/search.glsl"
 #include "voxel/parity.glsl"
 
-// Makes the march's voxel the best hit, at the ray's entry into it. A ray that begins in a voxel does not
-// enter it.
+// Makes the voxel with this index the best hit, at the t where the ray enters it. A ray that begins in a
+// voxel does not hit it.
 void voxel_take_voxel(VoxelRef s, Ray ray, float t, uint index, inout TraceState state) {
     if (!(t > ray.t_min)) {
         return;
@@ -32,9 +32,9 @@ void voxel_take_voxel(VoxelRef s, Ray ray, float t, uint index, inout TraceState
     }
 }
 
-// Reads the bits of the traversal's voxel from the octree, and the size of the empty space around that of the
-// march. To look a voxel up `again` after a pause costs no work of the budget: a ray advances in every round,
-// however small the budget is.
+// Returns the bits of the traversal's voxel from the octree, and keeps the size of the empty block around the
+// voxel of the march. A look-up that is made `again` after a pause costs no work: so a ray advances in every
+// round, however small its budget.
 uint voxel_look_up(VoxelRef s, bool again, inout VoxelTraversal traversal, inout TraceState state, inout uint work) {
     uint level;
     uint read;
@@ -47,7 +47,8 @@ uint voxel_look_up(VoxelRef s, bool again, inout VoxelTraversal traversal, inout
     return bits;
 }
 
-// Returns the ray without the fragments of the triangle that it leaves and of the surface that it ends on.
+// Returns the ray with both ends moved inwards, so that it hits neither the fragments of the triangle that it
+// leaves nor those of the surface on which it ends.
 Ray voxel_clear_ends(VoxelRef s, Ray ray) {
     float size = voxel_leaf_size(s);
     if (ray.t_max < 3.0e38) {
@@ -56,6 +57,8 @@ Ray voxel_clear_ends(VoxelRef s, Ray ray) {
     return leaving_ray(ray, size);
 }
 
+// Traces a ray, or goes on with a ray that paused, and keeps the best hit in the state. With `any_hit` the
+// first hit that is found is enough. Returns TRACE_*.
 uint voxel_trace(VoxelRef s, Ray ray, inout TraceState state, bool any_hit) {
     if (VOXEL_ENDS == ENDS_CLEAR) {
         ray = voxel_clear_ends(s, ray);
@@ -71,7 +74,8 @@ uint voxel_trace(VoxelRef s, Ray ray, inout TraceState state, bool any_hit) {
     uint work = 0u;
     while (more) {
         vec2 interval = voxel_interval(traversal);
-        // Nothing behind the best hit can be nearer. A search that was begun goes on, as without a pause.
+        // Nothing behind the best hit can be nearer. A search that was begun goes on, as it would without a
+        // pause.
         if (!entered && interval.x > state.best.t) {
             trace_log(STEP_SKIP, SKIP_BEHIND, 0u, 0u, interval.x, interval.y);
             break;
@@ -83,7 +87,7 @@ uint voxel_trace(VoxelRef s, Ray ray, inout TraceState state, bool any_hit) {
             }
             work++;
             state.cells++;
-            // A cell of a fourth view, whose rows are those of all layers.
+            // The log shows a voxel as a cell of a fourth view, whose rows are those of all layers of voxels.
             uint row = uint(traversal.voxel.y) + VOXEL_HEADER(s).grid * uint(traversal.voxel.z);
             trace_log_visit(STEP_CELL, AXIS_VIEWS, uint(traversal.voxel.x), row, interval.x, interval.y);
         }
@@ -123,6 +127,8 @@ uint voxel_status(VoxelRef s) {
     return VOXEL_HEADER(s).status;
 }
 
+// Returns the hit that the best hit of a trace represents. With VOXEL_IDS a hit on a fragment gets the id of
+// its triangle.
 Hit voxel_hit(VoxelRef s, Hit best) {
     Hit hit = best;
     if (VOXEL_IDS != 0u && hit.primitive == PRIMITIVE_UNKNOWN) {

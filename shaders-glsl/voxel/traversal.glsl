@@ -1,16 +1,18 @@
-// A ray's traversal of the voxels, and of the cells of a view within a voxel, which can pause and resume.
+// Follows a ray through the voxels, and through the cells of a view within a voxel. Both traversals can pause
+// and resume.
 // Reads: header. Writes: nothing.
-// Source: Hu et al. section 3.2, 3D-DDA and 2D-DDA; closed form, superset of the exact cells
-// (ads/march_grid.glsl).
+// Source: Hu et al. section 3.2, 3D-DDA and 2D-DDA; here in closed form, and through a superset of the exact
+// cells (ads/march_grid.glsl).
 //
-// cursor: 0 flags and small numbers
-//         1 voxel
-//         2 its entry
-//         3 its neighbours
-//         4 cell and step
-//         5 its entry
-//         6 place in the list that is being read
-//         7 a fragment of it
+// Words of the cursor of a paused ray:
+//   0 flags and small numbers
+//   1 voxel of the march
+//   2 t at the entry into that voxel
+//   3 neighbours of that voxel that are still to be visited
+//   4 cell of the march, and number of the step
+//   5 t at the entry into that cell
+//   6 link of the next fragment of the list that is being read
+//   7 fragment of that list that is nearest so far (parity)
 #ifndef VOXEL_TRAVERSAL_GLSL
 #define VOXEL_TRAVERSAL_GLSL
 
@@ -20,21 +22,22 @@
 #include "ads/march_grid_skip.glsl"
 #include "voxel/lists.glsl"
 
-// Fields of the flags; VoxelTraversal says what they hold.
+// Fields of the flags: first bit and width (contract/bits.glsl). VoxelTraversal says what they hold.
 #define VOXEL_CURSOR_STARTED 0, 1
 #define VOXEL_CURSOR_SEARCHING 1, 1
 #define VOXEL_CURSOR_IN_LIST 2, 1
 #define VOXEL_CURSOR_INSIDE 3, 1
 #define VOXEL_CURSOR_AXIS 4, 2
-// Axes along which the march has entered the voxel and the cell, plus one.
+// Axes along which the march entered the voxel and the cell, plus one.
 #define VOXEL_CURSOR_VOXEL_ENTRY 6, 2
 #define VOXEL_CURSOR_CELL_ENTRY 13, 2
-// Offset of the voxel, or cell, being searched from that of the march.
+// Number, among 3x3x3, of the voxel or cell being searched around that of the march.
 #define VOXEL_CURSOR_VOXEL_BESIDE 8, 5
 #define VOXEL_CURSOR_CELL_BESIDE 15, 5
-// Neighbours of a cell of a view; only the nine at its depth exist.
+// Neighbours of a cell of a view. Only the nine at the cell's own depth exist.
 #define VOXEL_CURSOR_CELL_NEIGHBOURS 20, 9
-// Stage of the search by parity, which leaves out cells next to those that the ray crosses.
+// Fields of the search by parity, which does not search neighbours of cells: they share the bits of the
+// fields of cells above.
 #define VOXEL_CURSOR_STAGE 15, 2
 #define VOXEL_CURSOR_ODD 17, 1
 #define VOXEL_CURSOR_HALVINGS 18, 9
@@ -43,34 +46,37 @@
 #define VOXEL_CURSOR_CELL_Y 13, 13
 #define VOXEL_CURSOR_STEP 26, 6
 
+// Traversal of a ray through the voxels, and through the cells of a view in a voxel.
 struct VoxelTraversal {
     vec3 origin;          // metres from the lower corner of the cube
     vec3 direction;
     GridMarch voxels;
-    ivec3 voxel;          // the voxel being searched: that of the march or one next to it
-    uint empty;           // the march's voxel is in an empty block of 2^empty voxels along a side; octree only
-    uint axis;            // the view being searched
+    ivec3 voxel;          // the voxel being searched: that of the march, or a neighbour
+    uint empty;           // the march's voxel is in an empty block of 2^empty voxels a side; octree only
+    uint axis;            // axis of the view being searched
     GridMarch cells;
+    // the cell being searched: that of the march, or a neighbour
     ivec3 cell;
-    bool searching;       // the traversal through the cells of a view has begun
-    bool in_list;         // the list of the cell has been begun: it is at `link`
-    uint link;            // the next fragment
-    // Parity only (voxel/parity.glsl).
-    bool inside;          // of the point before the step
+    bool searching;       // true if the traversal through the cells of the view has begun
+    bool in_list;         // true if the list of the cell has been begun, and goes on at `link`
+    uint link;            // link of the next fragment
+    // The members below are for the search by parity only (voxel/parity.glsl).
+    bool inside;          // whether the point before the step is inside
     uint stage;           // stage of the search: VOXEL_STAGE_*
+    // number of the step, with samples
     uint step;
-    uint halvings;        // a one, and behind it one bit per halving: whether its middle replaced the far point
-    bool odd;             // fragments before the point, so far
-    uint held;            // the fragment nearest to the point, so far
+    uint halvings;        // a one, then one bit per halving: whether the middle replaced the far point
+    bool odd;             // whether an odd number of fragments before the point was read so far
+    uint held;            // place of the fragment nearest to the point, so far
 };
 
-// Returns the lower corner of the cube. It is a function of its own because the shader compiler does not end
-// if `precise` values of several structures depend on memory that is reached by address.
+// Returns the lower corner of the cube. This is a function because the shader compiler does not terminate if
+// `precise` values of several structures depend on memory that is reached by address.
 vec3 voxel_lower(VoxelRef s) {
     return VOXEL_HEADER(s).lower;
 }
 
-// Starts the traversal through the voxels; false if the ray does not cross them.
+// Starts the traversal through the voxels. Returns false if the ray does not cross them.
 bool voxel_begin(VoxelRef s, Ray ray, out VoxelTraversal traversal) {
     vec3 lower = voxel_lower(s);
     precise vec3 origin = ray.origin - lower;
@@ -94,7 +100,8 @@ bool voxel_begin(VoxelRef s, Ray ray, out VoxelTraversal traversal) {
     return intersects;
 }
 
-// Goes to the next voxel; false at the end. A ray does not enter a voxel that it only touches within rounding.
+// Goes to the next voxel. Returns false at the end. If voxels are the leaves, a ray does not enter voxels
+// that it only touches within rounding.
 bool voxel_next(inout VoxelTraversal traversal) {
     if (VOXEL_LEAVES == VOXEL_LEAVES_FRAGMENTS && grid_take_neighbour(traversal.voxels, traversal.voxel)) {
         return true;
@@ -108,13 +115,13 @@ bool voxel_next(inout VoxelTraversal traversal) {
     return more;
 }
 
-// Returns the ray's segment in the voxel, widened by the errors of its ends.
+// Returns the ray's t interval in the voxel, widened by the errors of its ends.
 vec2 voxel_interval(VoxelTraversal traversal) {
     return vec2(traversal.voxels.t_in - traversal.voxels.error_in, traversal.voxels.t_out + traversal.voxels.t_error);
 }
 
-// Starts the traversal through the cells of its view over a segment of the ray; false if the ray crosses
-// none. The third axis is depth, along which everything is one cell.
+// Starts the traversal through the cells of the traversal's view, over a t interval of the ray. Returns false
+// if the ray crosses no cell. The third axis of the grid is depth, along which there is one cell only.
 bool voxel_begin_cells(VoxelRef s, vec2 interval, inout VoxelTraversal traversal) {
     int resolution = int(VOXEL_HEADER(s).resolution);
     float scale = VOXEL_HEADER(s).cells_per_metre;
@@ -127,7 +134,7 @@ bool voxel_begin_cells(VoxelRef s, vec2 interval, inout VoxelTraversal traversal
     return intersects;
 }
 
-// Goes to the next cell; false at the end.
+// Goes to the next cell. Returns false at the end.
 bool voxel_next_cell(inout VoxelTraversal traversal) {
     if (grid_take_neighbour(traversal.cells, traversal.cell)) {
         return true;
@@ -137,7 +144,7 @@ bool voxel_next_cell(inout VoxelTraversal traversal) {
     return more;
 }
 
-// These functions convert a cell among the 3x3x3 around another one to its index, and back.
+// Returns the number of a cell among the 3x3x3 around another one; voxel_from_neighbour returns the cell.
 uint voxel_neighbour(ivec3 cell, ivec3 center) {
     ivec3 offset = cell - center + 1;
     return uint(offset.x + 3 * offset.y + 9 * offset.z);
@@ -175,7 +182,7 @@ void voxel_save(VoxelTraversal traversal, inout TraceState state) {
     state.cursor[0] = flags;
 }
 
-// Moves a traversal through the voxels that has begun to the place where it paused.
+// Moves a traversal through the voxels, which has begun, to where it paused.
 void voxel_restore(TraceState state, inout VoxelTraversal traversal) {
     uint flags = state.cursor[0];
     grid_resume(traversal.voxels, grid_cell_of_bits(state.cursor[1]), uintBitsToFloat(state.cursor[2]),
@@ -189,7 +196,7 @@ void voxel_restore(TraceState state, inout VoxelTraversal traversal) {
     traversal.held = state.cursor[7];
 }
 
-// Moves a traversal through the cells of a view to the place where it paused.
+// Moves a traversal through the cells of a view, which has begun, to where it paused.
 void voxel_restore_cells(TraceState state, inout VoxelTraversal traversal) {
     uint flags = state.cursor[0];
     ivec3 cell = ivec3(bits_get(state.cursor[4], VOXEL_CURSOR_CELL_X), bits_get(state.cursor[4], VOXEL_CURSOR_CELL_Y), 0);

@@ -1,8 +1,8 @@
-// Work of the build on a triangle in a cell of a view, the same for every builder: it counts, or stores.
-// Reads: geometry, header, voxels (one axis per voxel), with PAYLOAD_ATTRIBUTES the scene. Writes: lists,
-// fragments, header; voxels and normals.
-// Source: Hu et al. section 3.1, the one geometry pass; Frid Kastrati and Goswami section 3.2: in the view of
-// its voxel's axis only.
+// Processes a triangle in a cell of a view, the same for every builder: counts the fragment, or stores it.
+// Reads: geometry, header, with PAYLOAD_ATTRIBUTES the scene; voxels, if a view keeps the fragments of some
+// voxels only. Writes: lists, fragments, header, voxels, normals.
+// Source: Hu et al. section 3.1, the one geometry pass; Frid Kastrati and Goswami section 3.2, fragments only
+// in the view along the axis of their voxel.
 #ifndef VOXEL_VISIT_GLSL
 #define VOXEL_VISIT_GLSL
 
@@ -12,6 +12,7 @@
 #include "voxel/attributes.glsl"
 #endif
 
+// Counts a fragment that the cell keeps. If every view keeps every triangle, it also marks the voxel.
 void voxel_visit_count(uint primitive, uint axis, ivec2 cell) {
     VoxelFound found;
     if (!voxel_fragment(primitive, axis, cell, found) || !voxel_mask_keeps(primitive, found.barycentrics)) {
@@ -25,6 +26,8 @@ void voxel_visit_count(uint primitive, uint axis, ivec2 cell) {
     voxel_list_count_one(build.structure, found.list);
 }
 
+// Stores a fragment that the cell keeps. Marks the voxel as voxel_visit_count does, if fragments are not
+// counted.
 void voxel_visit_store(uint primitive, uint axis, ivec2 cell) {
     VoxelFound found;
     if (!voxel_fragment(primitive, axis, cell, found) || !voxel_mask_keeps(primitive, found.barycentrics)

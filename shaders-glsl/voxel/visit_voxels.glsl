@@ -1,14 +1,16 @@
-// Marks the voxels of a column that a triangle reaches into, with the axis it faces most, or adds its
-// normal or a vote for that axis to them. The same for every builder.
-// Reads: geometry, header. Writes: voxels, normals, lists (voxels as leaves).
-// Source: Frid Kastrati and Goswami section 3.2, voxel generation. Sums of whole numbers replace the moving average
-// under a spin lock.
+// Marks the voxels of a column that a triangle reaches into, the same for every builder: with the axis that
+// the triangle faces most, or by adding to their sums of normals the triangle's normal or a vote for that
+// axis.
+// Reads: geometry, header. Writes: voxels, normals, lists (if voxels are the leaves).
+// Source: Frid Kastrati and Goswami section 3.2, voxel generation. Sums of whole numbers replace the moving
+// average under a spin lock.
 #ifndef VOXEL_VISIT_VOXELS_GLSL
 #define VOXEL_VISIT_VOXELS_GLSL
 
 #include "voxel/covered.glsl"
 #include "voxel/column.glsl"
 
+// Visits a column of voxels for a triangle; `axis` is the axis that the triangle faces most.
 void voxel_visit_voxels(uint primitive, uint axis, ivec2 column) {
     AxisView view = voxel_column_view(build.structure, axis);
     int grid = int(view.resolution);
@@ -21,9 +23,9 @@ void voxel_visit_voxels(uint primitive, uint axis, ivec2 column) {
         || !voxel_column_range(view, a, b, c, column, range)) {
         return;
     }
-    // If all views keep all triangles, fragments decide a voxel's axis: compared with each of their normals,
-    // a triangle weighs one step of VOXEL_NORMAL_STEPS along the axis it faces most, which decides only
-    // without fragments.
+    // If every view keeps every triangle, fragments decide a voxel's axis. A triangle then adds only one step
+    // of VOXEL_NORMAL_STEPS along the axis that it faces most, against the whole normal that each fragment
+    // adds. So it decides only in voxels without fragments.
     vec3 vote = vec3(0.0, 0.0, 1.0 / VOXEL_NORMAL_STEPS);
     vec3 normal = axis_to_world(VOXEL_AXES == VOXEL_AXES_ALL ? vote : voxel_unit_normal(a, b, c), axis);
     for (int depth = range.x; depth <= range.y; depth++) {

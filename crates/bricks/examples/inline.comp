@@ -1,5 +1,6 @@
 // Compute shader of the host: traces a ray through the bricks for every pixel of a square, on the spot.
-// Reads: geometry, bricks. Writes: the hit of every pixel. Set 0 is the host's; geometry and structure come after it.
+// Reads: geometry, bricks. Writes: the hit of every pixel.
+// Set 0 is the host's. Geometry and structure have the sets after it.
 #version 460
 #include "contract/extensions.glsl"
 
@@ -27,7 +28,8 @@ void main() {
     for (uint round = 0u; round < 16u && result == TRACE_PAUSED; round++) {
         result = bricks_trace_closest(BricksRef(uvec2(0u)), ray, state, hit);
     }
-    // While bricks are not ready or the ray is still paused, no hit is written; the host then shows an earlier picture.
+    // While the bricks are not ready or the ray is still paused, no hit is written. The host then shows an
+    // earlier picture.
     if (result == TRACE_HIT || result == TRACE_MISS) {
         hits[pixel.y * SIDE + pixel.x] = hit;
     }

@@ -1,6 +1,6 @@
 // Tests for every point of a host whether anything lies between it and a light, through bricks of rasray.
-// Reads: points; geometry and bricks, at sets that the host chose. Writes: visible. Set 0 is the host's, as for
-// descriptors of its own that are bound everywhere.
+// Reads: points; geometry and bricks, at sets that the host chose. Writes: visible.
+// Set 0 is the host's, as for descriptors of its own that are bound everywhere.
 #version 460
 #include "contract/extensions.glsl"
 
