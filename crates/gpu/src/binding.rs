@@ -134,10 +134,7 @@ impl Device {
         let limits = self.limits();
         for range in ranges {
             let buffer = range.buffer;
-            if !Arc::ptr_eq(&self.core, &buffer.inner.core) {
-                return Err(invalid(format!("buffer `{}` belongs to another device", buffer.name())));
-            }
-            buffer.check_usage(BufferUsage::STORAGE, "storage")?;
+            buffer.check_use(&self.core, BufferUsage::STORAGE, "storage")?;
             buffer.check_range(range.offset, range.size)?;
             let alignment = limits.min_storage_buffer_offset_alignment;
             if range.size == 0 || range.offset % alignment != 0 {

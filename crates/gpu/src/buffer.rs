@@ -325,15 +325,17 @@ impl Buffer {
         Err(GpuError::OutOfRange { name: self.name().to_owned(), offset, size, buffer_size: self.size() })
     }
 
-    /// Returns an error unless the buffer was made for this usage.
-    pub(crate) fn check_usage(&self, usage: BufferUsage, what: &str) -> Result<()> {
-        if self.usage().contains(usage) {
+    /// Returns an error unless the buffer is of this device and was made for this usage; an empty usage asks
+    /// for the device alone.
+    pub(crate) fn check_use(&self, core: &Arc<Core>, usage: BufferUsage, what: &str) -> Result<()> {
+        let reason = if !Arc::ptr_eq(&self.inner.core, core) {
+            "belongs to another device".to_owned()
+        } else if !self.usage().contains(usage) {
+            format!("was not created for {what}")
+        } else {
             return Ok(());
-        }
-        Err(GpuError::InvalidUse {
-            name: self.name().to_owned(),
-            reason: format!("was not created for {what}"),
-        })
+        };
+        Err(GpuError::InvalidUse { name: self.name().to_owned(), reason })
     }
 
     fn mapped(&self) -> Result<&Mutex<Mapped>> {

@@ -180,6 +180,11 @@ impl DriverTree {
         self.inner.scratch.size()
     }
 
+    /// Returns an error unless the tree is of this device.
+    pub(crate) fn check_device(&self, core: &Arc<Core>) -> Result<()> {
+        self.inner.scratch.check_use(core, BufferUsage::default(), "builds")
+    }
+
     /// Returns the handles that must live until the device has finished with the tree.
     pub(crate) fn kept(&self) -> Arc<dyn std::any::Any + Send + Sync> {
         self.inner.clone()

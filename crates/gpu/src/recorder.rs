@@ -317,7 +317,7 @@ impl<'a> Recorder<'a> {
     }
 
     fn indirect_arguments(&mut self, buffer: &Buffer, offset: u64, size: u64) -> bool {
-        let usage = buffer.check_usage(BufferUsage::INDIRECT, "indirect arguments");
+        let usage = buffer.check_use(&self.device.core, BufferUsage::INDIRECT, "indirect arguments");
         if let Err(error) = usage.and_then(|()| buffer.check_range(offset, size)) {
             self.fail(error);
         } else if !offset.is_multiple_of(4) {

@@ -2,7 +2,7 @@
 
 use super::Recorder;
 use crate::access::Access;
-use crate::buffer::Buffer;
+use crate::buffer::{Buffer, BufferUsage};
 use crate::driver_tree::{DRIVER_BOX_BYTES, DriverTree};
 
 impl Recorder<'_> {
@@ -13,7 +13,12 @@ impl Recorder<'_> {
         if !self.outside_rendering("build_driver_tree") {
             return;
         }
-        if let Err(error) = boxes.check_range(0, u64::from(count) * DRIVER_BOX_BYTES) {
+        let core = &self.device.core;
+        let checked = tree
+            .check_device(core)
+            .and_then(|()| boxes.check_use(core, BufferUsage::default(), "boxes of a tree"))
+            .and_then(|()| boxes.check_range(0, u64::from(count) * DRIVER_BOX_BYTES));
+        if let Err(error) = checked {
             return self.fail(error);
         }
         if count > tree.boxes() {

@@ -5,6 +5,7 @@ use ash::vk;
 use super::Recorder;
 use crate::access::Access;
 use crate::binding::BufferRange;
+use crate::buffer::BufferUsage;
 
 impl Recorder<'_> {
     /// Takes ranges of buffers over from another queue family, for accesses `to` after it. It records the
@@ -30,7 +31,11 @@ impl Recorder<'_> {
             return;
         }
         for range in ranges {
-            if let Err(error) = range.buffer.check_range(range.offset, range.size) {
+            let checked = range
+                .buffer
+                .check_use(&self.device.core, BufferUsage::default(), "transfers")
+                .and_then(|()| range.buffer.check_range(range.offset, range.size));
+            if let Err(error) = checked {
                 return self.fail(error);
             }
             self.keep(range.buffer.inner.clone());

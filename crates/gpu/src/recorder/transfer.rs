@@ -12,7 +12,7 @@ impl Recorder<'_> {
         if !self.outside_rendering("fill") || size == 0 {
             return;
         }
-        let usage = buffer.check_usage(BufferUsage::TRANSFER_DST, "being filled");
+        let usage = buffer.check_use(&self.device.core, BufferUsage::TRANSFER_DST, "being filled");
         if let Err(error) = usage.and_then(|()| buffer.check_range(offset, size)) {
             return self.fail(error);
         }
@@ -35,7 +35,8 @@ impl Recorder<'_> {
         if !self.outside_rendering("update") || bytes.is_empty() {
             return;
         }
-        let usage = buffer.check_usage(BufferUsage::TRANSFER_DST, "being written by commands");
+        let usage =
+            buffer.check_use(&self.device.core, BufferUsage::TRANSFER_DST, "being written by commands");
         if let Err(error) = usage.and_then(|()| buffer.check_range(offset, bytes.len() as u64)) {
             return self.fail(error);
         }
@@ -65,9 +66,10 @@ impl Recorder<'_> {
         if !self.outside_rendering("copy") || size == 0 {
             return;
         }
+        let core = &self.device.core;
         let checked = source
-            .check_usage(BufferUsage::TRANSFER_SRC, "being copied from")
-            .and_then(|()| target.check_usage(BufferUsage::TRANSFER_DST, "being copied to"))
+            .check_use(core, BufferUsage::TRANSFER_SRC, "being copied from")
+            .and_then(|()| target.check_use(core, BufferUsage::TRANSFER_DST, "being copied to"))
             .and_then(|()| source.check_range(source_offset, size))
             .and_then(|()| target.check_range(target_offset, size));
         if let Err(error) = checked {
