@@ -11,6 +11,8 @@
 //! `DEP_RASRAY_SHADERS_GLSL_ROOT`; the crate `rasray-shader-compiler` has an example. [`layout`] reads names,
 //! offsets and sizes of buffer members back out of a module; tests hold [records] against them.
 
+use rasray_spirv::TrustedModule;
+
 pub mod layout;
 mod packed;
 pub mod records;
@@ -61,6 +63,14 @@ impl Shader {
     pub fn words(&self) -> Vec<u32> {
         packed::unpack(self.packed).expect("the build script unpacks every module once")
     }
+
+    /// Unpacks the module for a pipeline, in the time that [`Shader::words`] takes.
+    pub fn module(&self) -> TrustedModule {
+        // SAFETY: the words are those that the compiler made of the GLSL in this crate. Its shaders compare
+        // each index with the length of the buffer, or with a capacity that the owner of the buffer wrote.
+        // Their loops are bounded. They follow the addresses of pools alone, which structures write.
+        unsafe { TrustedModule::new(self.words().into()) }
+    }
 }
 
 impl std::fmt::Debug for Shader {
@@ -72,14 +82,6 @@ impl std::fmt::Debug for Shader {
 /// Returns the module of that name, if it was compiled.
 pub fn shader(name: &str) -> Option<&'static Shader> {
     ALL.iter().copied().find(|shader| shader.name == name)
-}
-
-/// Returns the words of the module of that name.
-///
-/// # Panics
-/// If no module of that name was compiled: the name is misspelt or its feature is off.
-pub fn spirv(name: &str) -> Vec<u32> {
-    shader(name).unwrap_or_else(|| panic!("no shader module `{name}` was compiled")).words()
 }
 
 // These modules are parts of the build script, included here for their tests.

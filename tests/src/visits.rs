@@ -291,7 +291,7 @@ pub fn run_kernel<T: Pod, C: Pod>(
     let pipeline = device
         .create_compute_pipeline(&ComputePipelineDesc {
             name: shader.name,
-            spirv: &shader.words(),
+            module: &shader.module(),
             sets: &[&layout],
             push_constant_bytes: size_of::<C>() as u32,
             constants: &[],

@@ -179,7 +179,7 @@ impl RayQueue {
         let shader = &rasray_shaders_glsl::ADS_QUEUE_TAKE;
         let take = device.create_compute_pipeline(&ComputePipelineDesc {
             name: shader.name,
-            spirv: &shader.words(),
+            module: &shader.module(),
             sets: &[&layout],
             push_constant_bytes: size_of::<QueueTakeConstants>() as u32,
             constants: &[],

@@ -149,7 +149,7 @@ impl PosePass {
         let set = device.create_binding_set(&layout, "pose", &buffers.each_ref())?;
         let vertices = device.create_compute_pipeline(&ComputePipelineDesc {
             name: SCENE_POSE_VERTICES.name,
-            spirv: &SCENE_POSE_VERTICES.words(),
+            module: &SCENE_POSE_VERTICES.module(),
             sets: &[&layout],
             push_constant_bytes: 0,
             constants: &[],

@@ -134,7 +134,7 @@ pub use messages::ValidationLog;
 pub use pipeline::{ComputePipeline, RasterPipeline};
 pub use pipeline_desc::{ComputePipelineDesc, RasterPipelineDesc};
 pub use queue::{SubmitOptions, Submitted};
-pub use rasray_spirv::storage_buffers_used;
+pub use rasray_spirv::{TrustedModule, storage_buffers_used};
 pub use raster_options::RasterOptions;
 pub use raw::RawDevice;
 pub use recorder::{PassCommands, Recorded, Recorder, RenderArea};

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use ash::vk;
-use rasray_spirv::{specialised, used_bindings};
+use rasray_spirv::{TrustedModule, specialised, used_bindings};
 
 use crate::device::Device;
 use crate::device_core::Core;
@@ -90,7 +90,7 @@ impl Device {
             stages: vk::ShaderStageFlags::COMPUTE,
             bind_point: vk::PipelineBindPoint::COMPUTE,
         };
-        let recipe = asked.recipe(&[desc.spirv], desc.constants, RasterOptions::default());
+        let recipe = asked.recipe(&[desc.module], desc.constants, RasterOptions::default());
         let inner = self.shared_pipeline(&asked, recipe, |layout, modules| {
             let module = Module::create(&self.core, desc.name, &modules[0])?;
             let values = Specialisation::new(desc.constants);
@@ -140,7 +140,7 @@ impl Device {
             stages: vk::ShaderStageFlags::VERTEX | vk::ShaderStageFlags::FRAGMENT,
             bind_point: vk::PipelineBindPoint::GRAPHICS,
         };
-        let recipe = asked.recipe(&[desc.vertex_spirv, desc.fragment_spirv], desc.constants, options);
+        let recipe = asked.recipe(&[desc.vertex_module, desc.fragment_module], desc.constants, options);
         let inner = self.shared_pipeline(&asked, recipe, |layout, modules| {
             let vertex = Module::create(core, desc.name, &modules[0])?;
             let fragment = Module::create(core, desc.name, &modules[1])?;
@@ -298,9 +298,9 @@ struct PipelineRequest<'a> {
 }
 
 impl PipelineRequest<'_> {
-    fn recipe(&self, modules: &[&[u32]], constants: &[(u32, u32)], options: RasterOptions) -> Recipe {
+    fn recipe(&self, modules: &[&TrustedModule], constants: &[(u32, u32)], options: RasterOptions) -> Recipe {
         Recipe {
-            modules: modules.iter().map(|words| Box::from(*words)).collect(),
+            modules: modules.iter().map(|module| module.words().into()).collect(),
             constants: constants.into(),
             sets: self.sets.iter().map(|set| set.storage_buffers()).collect(),
             push_constant_bytes: self.push_constant_bytes,

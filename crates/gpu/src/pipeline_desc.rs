@@ -1,5 +1,7 @@
 //! Descriptions of compute and raster pipelines.
 
+use rasray_spirv::TrustedModule;
+
 use crate::set_layout::SetLayout;
 
 /// Description of a compute pipeline to be made. The entry point is `main`.
@@ -7,8 +9,8 @@ use crate::set_layout::SetLayout;
 pub struct ComputePipelineDesc<'a> {
     /// Name for errors and tools: the path of the shader.
     pub name: &'a str,
-    /// SPIR-V module, in words.
-    pub spirv: &'a [u32],
+    /// Module of the shader.
+    pub module: &'a TrustedModule,
     /// Layouts of the sets, from set 0 up.
     pub sets: &'a [&'a SetLayout],
     /// Bytes of push constants, a multiple of 4.
@@ -24,10 +26,10 @@ pub struct ComputePipelineDesc<'a> {
 pub struct RasterPipelineDesc<'a> {
     /// Name for errors and tools: the path of the shaders.
     pub name: &'a str,
-    /// SPIR-V module of the vertex shader, in words.
-    pub vertex_spirv: &'a [u32],
-    /// SPIR-V module of the fragment shader, in words.
-    pub fragment_spirv: &'a [u32],
+    /// Module of the vertex shader.
+    pub vertex_module: &'a TrustedModule,
+    /// Module of the fragment shader.
+    pub fragment_module: &'a TrustedModule,
     /// Layouts of the sets, from set 0 up.
     pub sets: &'a [&'a SetLayout],
     /// Bytes of push constants, a multiple of 4; both stages can read them.

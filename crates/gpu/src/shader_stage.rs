@@ -12,10 +12,10 @@ pub(crate) struct Module<'a> {
 }
 
 impl<'a> Module<'a> {
-    pub(crate) fn create(core: &'a Core, name: &str, spirv: &[u32]) -> Result<Self> {
-        rasray_spirv::check_header(spirv).map_err(|error| GpuError::of_shader(name, error))?;
-        let info = vk::ShaderModuleCreateInfo::default().code(spirv);
-        // SAFETY: the header of the words is that of a module; the shader compiler guarantees the rest.
+    pub(crate) fn create(core: &'a Core, name: &str, words: &[u32]) -> Result<Self> {
+        rasray_spirv::check_header(words).map_err(|error| GpuError::of_shader(name, error))?;
+        let info = vk::ShaderModuleCreateInfo::default().code(words);
+        // SAFETY: the words are what the pipeline's constants leave of a module that its maker vouches for.
         let raw =
             unsafe { core.device.create_shader_module(&info, None) }.during("vkCreateShaderModule", name)?;
         core.name_object(raw, name);

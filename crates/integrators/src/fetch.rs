@@ -90,15 +90,15 @@ impl Fetch {
         let push_constant_bytes = size_of::<FetchConstants>() as u32;
         let steps = device.create_compute_pipeline(&ComputePipelineDesc {
             name: INTEGRATORS_FETCH_LISTS.name,
-            spirv: &INTEGRATORS_FETCH_LISTS.words(),
+            module: &INTEGRATORS_FETCH_LISTS.module(),
             sets: &sets,
             push_constant_bytes,
             constants: &binding.constants,
         })?;
         let draw = device.create_raster_pipeline(&RasterPipelineDesc {
             name: INTEGRATORS_FETCH.name,
-            vertex_spirv: &INTEGRATORS_FETCH_RASTER.words(),
-            fragment_spirv: &INTEGRATORS_FETCH.words(),
+            vertex_module: &INTEGRATORS_FETCH_RASTER.module(),
+            fragment_module: &INTEGRATORS_FETCH.module(),
             sets: &sets,
             push_constant_bytes,
             constants: &binding.constants,

@@ -154,7 +154,7 @@ impl Bindings {
         let constants = [constants, &[(WAVE_IS_LISTED, self.is_listed.into())]].concat();
         let pipeline = device.create_compute_pipeline(&ComputePipelineDesc {
             name: shader.name,
-            spirv: &shader.words(),
+            module: &shader.module(),
             sets: &self.layouts.each_ref(),
             push_constant_bytes: size_of::<WaveConstants>() as u32,
             constants: &constants,

@@ -70,15 +70,15 @@ impl Visibility {
             if binding.alpha_masked { &INTEGRATORS_VISIBILITY_ALPHA } else { &INTEGRATORS_VISIBILITY };
         let draw = device.create_raster_pipeline(&RasterPipelineDesc {
             name: fragment.name,
-            vertex_spirv: &INTEGRATORS_VISIBILITY_RASTER.words(),
-            fragment_spirv: &fragment.words(),
+            vertex_module: &INTEGRATORS_VISIBILITY_RASTER.module(),
+            fragment_module: &fragment.module(),
             sets: &sets,
             push_constant_bytes,
             constants: &constants,
         })?;
         let resolve = device.create_compute_pipeline(&ComputePipelineDesc {
             name: INTEGRATORS_VISIBILITY_RESOLVE.name,
-            spirv: &INTEGRATORS_VISIBILITY_RESOLVE.words(),
+            module: &INTEGRATORS_VISIBILITY_RESOLVE.module(),
             sets: &sets,
             push_constant_bytes,
             constants: &constants,

@@ -125,7 +125,7 @@ impl ShadowMaps {
                 let shader = MODULES.find(name)?;
                 Ok(device.create_compute_pipeline(&ComputePipelineDesc {
                     name: shader.name,
-                    spirv: &shader.words(),
+                    module: &shader.module(),
                     sets,
                     push_constant_bytes: push_constant_bytes as u32,
                     constants: &[],
@@ -140,8 +140,8 @@ impl ShadowMaps {
         sets.extend(masks.map(|scene| &scene.layout));
         let build_depths = device.create_raster_pipeline(&RasterPipelineDesc {
             name: fragment.name,
-            vertex_spirv: &vertex.words(),
-            fragment_spirv: &fragment.words(),
+            vertex_module: &vertex.module(),
+            fragment_module: &fragment.module(),
             sets: &sets,
             push_constant_bytes: size_of::<ShadowMapsDrawConstants>() as u32,
             constants: masks.map_or(&[][..], |scene| &scene.constants),

@@ -12,10 +12,12 @@ mod fold;
 mod instruction;
 mod reduce;
 mod specialise;
+mod trusted;
 
 pub use bindings::{NotAModule, check_header, storage_buffers_used, used_bindings};
 pub use reduce::{only_reached, without_debug_text};
 pub use specialise::specialised;
+pub use trusted::TrustedModule;
 
 /// Compiles the example of the readme.
 #[cfg(doctest)]

@@ -57,7 +57,7 @@ fn side_by_side(
     let pipeline = device
         .create_compute_pipeline(&ComputePipelineDesc {
             name: shader.name,
-            spirv: &shader.words(),
+            module: &shader.module(),
             sets: &[geometry.layout(), first.layout, second.layout, &layout],
             push_constant_bytes: size_of::<ParityTestConstants>() as u32,
             constants: &constants,

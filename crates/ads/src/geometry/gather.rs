@@ -139,7 +139,7 @@ pub(crate) fn pipeline(
 ) -> Result<ComputePipeline, GpuError> {
     device.create_compute_pipeline(&ComputePipelineDesc {
         name: shader.name,
-        spirv: &shader.words(),
+        module: &shader.module(),
         sets,
         push_constant_bytes: push_constant_bytes as u32,
         constants: &[],

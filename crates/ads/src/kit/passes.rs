@@ -65,7 +65,7 @@ impl<'a> BuildPipelines<'a> {
         let shader = self.modules.find(name)?;
         Ok(self.device.create_compute_pipeline(&ComputePipelineDesc {
             name: shader.name,
-            spirv: &shader.words(),
+            module: &shader.module(),
             sets: &self.sets,
             push_constant_bytes: size_of::<BuildConstants>() as u32,
             constants: &self.constants,
@@ -80,8 +80,8 @@ impl<'a> BuildPipelines<'a> {
         let (vertex, fragment) = (self.modules.find(vertex)?, self.modules.find(fragment)?);
         let desc = RasterPipelineDesc {
             name: fragment.name,
-            vertex_spirv: &vertex.words(),
-            fragment_spirv: &fragment.words(),
+            vertex_module: &vertex.module(),
+            fragment_module: &fragment.module(),
             sets: &self.sets,
             push_constant_bytes: size_of::<BuildConstants>() as u32,
             constants: &self.constants,

@@ -58,7 +58,7 @@ impl FarLights {
         let set = device.create_binding_set(&layout, "pose lights", &bound)?;
         let pipeline = device.create_compute_pipeline(&ComputePipelineDesc {
             name: SCENE_POSE_LIGHTS.name,
-            spirv: &SCENE_POSE_LIGHTS.words(),
+            module: &SCENE_POSE_LIGHTS.module(),
             sets: &[gpu.geometry().layout(), &layout],
             push_constant_bytes: size_of::<PoseLightConstants>() as u32,
             constants: &[],

@@ -1,6 +1,6 @@
 //! Dispatches, transfers and timings on a device that this crate made.
 
-use crate::device::common::{Scale, bytes_of, device, finish, storage};
+use crate::device::common::{Scale, bytes_of, device, finish, module, storage};
 use rasray_gpu::*;
 
 #[test]
@@ -93,7 +93,7 @@ fn a_pipeline_has_the_bindings_that_its_shader_uses() {
     // The pipeline does not use sets 1 to 3 at all.
     let desc = ComputePipelineDesc {
         name: "scale of three",
-        spirv: crate::device::common::shaders::SCALE,
+        module: &module(crate::device::common::shaders::SCALE),
         sets: &[&layout; 4],
         push_constant_bytes: 8,
         constants: &[],
@@ -125,7 +125,7 @@ fn pipeline(device: &Device, name: &str, bias: u32) -> ComputePipeline {
     let layout = device.create_set_layout(name, 1).expect("set layout");
     let desc = ComputePipelineDesc {
         name,
-        spirv: crate::device::common::shaders::SCALE,
+        module: &module(crate::device::common::shaders::SCALE),
         sets: &[&layout],
         push_constant_bytes: 8,
         constants: &[(7, bias)],
@@ -194,7 +194,7 @@ fn specialisation_defaults_hold_where_nothing_is_given() {
     scale.pipeline = device
         .create_compute_pipeline(&ComputePipelineDesc {
             name: "scale without bias",
-            spirv: crate::device::common::shaders::SCALE,
+            module: &module(crate::device::common::shaders::SCALE),
             sets: &[&scale.layout],
             push_constant_bytes: 8,
             constants: &[],

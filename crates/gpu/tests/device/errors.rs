@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use crate::device::common::{Scale, device, finish, shaders, storage};
+use crate::device::common::{Scale, device, finish, module, shaders, storage};
 use rasray_gpu::*;
 
 /// Returns the error of a recording; its message must contain `text`.
@@ -104,20 +104,23 @@ fn creation_names_what_is_wrong() {
     let buffer = storage(&device, "values", 64);
     let error = device.create_binding_set(&layout, "set", &[&buffer, &buffer]).expect_err("one binding");
     assert!(error.to_string().contains("2 buffers are given"), "{error}");
+    // SAFETY: words whose header is not that of a module are refused.
+    let refused = |words: Vec<u32>| unsafe { TrustedModule::new(words.into()) };
     let desc = ComputePipelineDesc {
         name: "broken",
-        spirv: &[1, 2, 3, 4, 5, 6],
+        module: &refused(vec![1, 2, 3, 4, 5, 6]),
         sets: &[&layout],
         push_constant_bytes: 0,
         constants: &[],
     };
     let error = device.create_compute_pipeline(&desc).expect_err("no module");
     assert!(matches!(&error, GpuError::InvalidShader { name, .. } if name == "broken"), "{error}");
-    let swapped: Vec<u32> = shaders::SCALE.iter().map(|word| word.swap_bytes()).collect();
-    let error = device.create_compute_pipeline(&ComputePipelineDesc { spirv: &swapped, ..desc });
+    let swapped = refused(shaders::SCALE.iter().map(|word| word.swap_bytes()).collect());
+    let error = device.create_compute_pipeline(&ComputePipelineDesc { module: &swapped, ..desc });
     assert!(error.expect_err("reversed").to_string().contains("byte order"));
     let too_many = device.limits().max_push_constants + 4;
-    let desc = ComputePipelineDesc { spirv: shaders::SCALE, push_constant_bytes: too_many, ..desc };
+    let scale = module(shaders::SCALE);
+    let desc = ComputePipelineDesc { module: &scale, push_constant_bytes: too_many, ..desc };
     assert!(matches!(device.create_compute_pipeline(&desc), Err(GpuError::LimitExceeded { .. })));
     let too_many = device.limits().max_storage_buffers_per_stage.saturating_add(1);
     assert!(matches!(device.create_set_layout("many", too_many), Err(GpuError::LimitExceeded { .. })));
@@ -127,6 +130,31 @@ fn creation_names_what_is_wrong() {
     assert!(error.to_string().contains("another device"), "{error}");
     finish(other);
     drop((layout, buffer));
+    finish(device);
+}
+
+#[test]
+fn buffers_of_another_device_are_refused() {
+    let (device, other) = (device(), device());
+    let (ours, theirs) = (storage(&device, "ours", 64), storage(&other, "theirs", 64));
+    let refused = |record: &dyn Fn(&mut Recorder<'_>)| {
+        let error = mistake(&device, "`theirs`: belongs to another device", record);
+        assert!(matches!(error, GpuError::InvalidUse { .. }));
+    };
+    refused(&|recorder| recorder.fill(&theirs, 0, 4, 1));
+    refused(&|recorder| recorder.update(&theirs, 0, &[0; 4]));
+    refused(&|recorder| recorder.copy(&theirs, 0, &ours, 0, 4));
+    refused(&|recorder| recorder.copy(&ours, 0, &theirs, 0, 4));
+    let range = [BufferRange { buffer: &theirs, offset: 0, size: 4 }];
+    refused(&|recorder| recorder.acquire(&range, 1, Access::COMPUTE_READ));
+    refused(&|recorder| recorder.release(&range, 1, Access::COMPUTE_WRITE));
+    let scale = Scale::new(&device, 64);
+    refused(&|recorder| {
+        scale.bind(recorder, 1);
+        recorder.dispatch_indirect(&theirs, 0);
+    });
+    drop((ours, theirs, scale));
+    finish(other);
     finish(device);
 }
 
@@ -190,7 +218,7 @@ fn a_timeout_names_the_pass_and_abandons_the_device() {
     let pipeline = device
         .create_compute_pipeline(&ComputePipelineDesc {
             name: "slow",
-            spirv: shaders::SLOW,
+            module: &module(shaders::SLOW),
             sets: &[&layout],
             push_constant_bytes: 0,
             constants: &[],

@@ -1,6 +1,6 @@
 //! Draws without attachments.
 
-use crate::device::common::{bytes_of, device, device_with, finish, requirements, shaders, storage};
+use crate::device::common::{bytes_of, device, device_with, finish, module, requirements, shaders, storage};
 use rasray_gpu::*;
 
 struct Count {
@@ -15,8 +15,8 @@ fn count(device: &Device, pixels: u64, options: RasterOptions) -> Count {
     let set = device.create_binding_set(&layout, "pixels", &[&buffer]).expect("binding set");
     let desc = RasterPipelineDesc {
         name: "count",
-        vertex_spirv: shaders::FULL_VERTEX,
-        fragment_spirv: shaders::COUNT_FRAGMENT,
+        vertex_module: &module(shaders::FULL_VERTEX),
+        fragment_module: &module(shaders::COUNT_FRAGMENT),
         sets: &[&layout],
         push_constant_bytes: 4,
         constants: &[],
@@ -110,8 +110,8 @@ fn options_need_their_features() {
     let layout = device.create_set_layout("pixels", 1).expect("set layout");
     let desc = RasterPipelineDesc {
         name: "count",
-        vertex_spirv: shaders::FULL_VERTEX,
-        fragment_spirv: shaders::COUNT_FRAGMENT,
+        vertex_module: &module(shaders::FULL_VERTEX),
+        fragment_module: &module(shaders::COUNT_FRAGMENT),
         sets: &[&layout],
         push_constant_bytes: 4,
         constants: &[],

@@ -154,10 +154,11 @@ fn run(cases: &[Case], sampler: Sampler, packed: &SceneTables) -> Vec<u32> {
     tables[4] = &attributes;
     tables[5] = &materials;
     let scene = device.create_binding_set(&scene_layout, "scene", &tables).expect("set");
+    let shader = rasray_shaders_glsl::shader("scene/test_scattering").expect("a kernel of tests");
     let pipeline = device
         .create_compute_pipeline(&ComputePipelineDesc {
-            name: "scene/test_scattering",
-            spirv: &rasray_shaders_glsl::spirv("scene/test_scattering"),
+            name: shader.name,
+            module: &shader.module(),
             sets: &[&own_layout, &scene_layout],
             push_constant_bytes: 0,
             constants: &[],

@@ -56,7 +56,7 @@ impl Scale {
         let pipeline = device
             .create_compute_pipeline(&ComputePipelineDesc {
                 name: "scale",
-                spirv: shaders::SCALE,
+                module: &module(shaders::SCALE),
                 sets: &[&layout],
                 push_constant_bytes: 8,
                 constants: &[(7, Self::BIAS)],
@@ -78,6 +78,12 @@ impl Scale {
     pub fn values(&self, device: &Device) -> Vec<u32> {
         device.download_as(&self.buffer, 0, self.count as usize).expect("download")
     }
+}
+
+/// Vouches for one of [`shaders`].
+pub fn module(words: &'static [u32]) -> TrustedModule {
+    // SAFETY: these shaders end, and index their buffers below the counts that tests give them.
+    unsafe { TrustedModule::new(words.into()) }
 }
 
 pub fn bytes_of(words: &[u32]) -> &[u8] {
