@@ -30,13 +30,13 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             println!("{} {} is left out: the device lacks {missing}", system.name, preset.name());
         }
     }
-    let contestants =
+    let mut contestants =
         Contestant::all(&device, &stage, &systems, stage.scene.eye(), REPETITIONS, &mut |_| {
             ControlFlow::Continue(())
         })?
         .unwrap_or_default();
     let rays = incoherent_rays(stage.scene.geometry().bounds(), SEED, rays);
-    let traces = trace_in_turns(&device, &contestants, &rays, REPETITIONS)?;
+    let traces = trace_in_turns(&device, &mut contestants, &rays, REPETITIONS)?;
     println!(
         "{:<24} {:>12} {:>12} {:>22} {:>10}",
         "system", "build ms", "trace ms", "least to greatest", "Mrays/s"

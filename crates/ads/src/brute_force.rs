@@ -107,6 +107,12 @@ impl Structure for BruteForce {
         self.kernels.set_scene(self.description.name, scene)
     }
 
+    fn set_counters(&mut self, device: &Device, counters: Counters) -> Result<(), AdsError> {
+        self.kernels.set_counters(device, counters)?;
+        self.description.counters = counters;
+        Ok(())
+    }
+
     fn set_slots(&mut self, _device: &Device, slots: u32) -> Result<(), AdsError> {
         self.slots = slots.max(1);
         Ok(())

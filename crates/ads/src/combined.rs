@@ -3,8 +3,9 @@
 use rasray_gpu::{Device, GpuError, Recorder};
 
 use crate::{
-    AdsError, BuildStatus, Check, Description, Domain, Geometry, GeometryParts, Inspect, ListCounts,
-    RayQueue, SceneBinding, Sizes, Start, Structure, StructureReport, Trace, TracedPart, Viewpoint,
+    AdsError, BuildStatus, Check, Counters, Description, Domain, Geometry, GeometryParts, Inspect,
+    ListCounts, RayQueue, SceneBinding, Sizes, Start, Structure, StructureReport, Trace, TracedPart,
+    Viewpoint,
 };
 
 /// Structures of one kind over the parts of a geometry. A ray is traced through the static part and then
@@ -138,6 +139,12 @@ impl Structure for Combined {
 
     fn set_scene(&mut self, scene: &SceneBinding) -> Result<(), AdsError> {
         self.parts.iter_mut().try_for_each(|part| part.set_scene(scene))
+    }
+
+    fn set_counters(&mut self, device: &Device, counters: Counters) -> Result<(), AdsError> {
+        self.parts.iter_mut().try_for_each(|part| part.set_counters(device, counters))?;
+        self.description.counters = counters;
+        Ok(())
     }
 
     fn prepare_build(&mut self, device: &Device) -> Result<(), AdsError> {

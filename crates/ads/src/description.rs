@@ -40,7 +40,7 @@ impl Dependencies {
     }
 }
 
-/// Facts about a structure that do not change during its life
+/// Facts about a structure
 /// ([`Structure::description`](crate::Structure::description)).
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Description {
@@ -50,7 +50,8 @@ pub struct Description {
     pub kind: StructureKind,
     /// Device features that the structure uses.
     pub requirements: Requirements,
-    /// Amount of their work that rays record.
+    /// Amount of their work that rays record; the only fact that can be changed
+    /// ([`Structure::set_counters`](crate::Structure::set_counters)).
     pub counters: Counters,
     /// Changes of the viewpoint that make a build stale
     /// ([`Structure::is_stale`](crate::Structure::is_stale)).

@@ -3,8 +3,8 @@
 use rasray_gpu::{BindingSet, Device, GpuError, Recorder, SetLayout};
 
 use crate::{
-    AdsError, BuildStatus, Check, Description, Domain, Geometry, Inspect, RayQueue, SceneBinding, Sizes,
-    Trace, TracedPart, Viewpoint,
+    AdsError, BuildStatus, Check, Counters, Description, Domain, Geometry, Inspect, RayQueue, SceneBinding,
+    Sizes, Trace, TracedPart, Viewpoint,
 };
 
 /// Report of a structure after a build.
@@ -64,7 +64,7 @@ pub struct InlineTrace<'a> {
 ///
 /// Structures are [`Send`] and [`Sync`]: a host may record on a thread of its own.
 pub trait Structure: Send + Sync {
-    /// Returns the facts that do not change during the structure's life.
+    /// Returns the facts about the structure.
     fn description(&self) -> &Description;
 
     /// Returns the sizes of the allocated pools.
@@ -97,6 +97,14 @@ pub trait Structure: Send + Sync {
     /// # Errors
     /// [`AdsError::OtherScene`], or [`AdsError::NoScene`] where the structure was made without one.
     fn set_scene(&mut self, scene: &SceneBinding) -> Result<(), AdsError>;
+
+    /// Makes rays record another amount of their work, from the next recording on. The build is kept. Making
+    /// the kernel takes as long as for a new structure, unless
+    /// [`Device::keep_pipelines`](rasray_gpu::Device::keep_pipelines) keeps it.
+    ///
+    /// # Errors
+    /// The device refuses the pipeline; parts of a structure before the one concerned have changed then.
+    fn set_counters(&mut self, device: &Device, counters: Counters) -> Result<(), AdsError>;
 
     /// Sets the number of builds whose outcomes are kept separately from now on, at least 1; the initial
     /// number is 1. One per frame in flight is needed. Outcomes of earlier builds are lost; the pools stay.

@@ -181,6 +181,18 @@ impl Built {
         self.frames.structure()
     }
 
+    /// Makes rays record another amount of their work.
+    ///
+    /// # Errors
+    /// The device refuses a pipeline.
+    pub fn set_counters(
+        &mut self,
+        device: &Device,
+        counters: rasray_ads::Counters,
+    ) -> Result<(), ExperimentError> {
+        Ok(self.frames.set_counters(device, counters)?)
+    }
+
     /// Builds the stale parts for the current scene: the moving parts that have `moved` (all if that is
     /// empty), and everything that depends on the eye. From then on times and passes are those of this frame.
     ///

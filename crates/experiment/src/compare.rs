@@ -168,8 +168,8 @@ fn compare_rays(
         Wanted { repetitions: job.repetitions, seed: job.frame.seed, figures: job.figures, keep: job.keep };
     let total = job.wanted() as u64;
     for set in 0..job.sets() {
-        let systems = (&contestants[..], job.systems.len());
-        let taking = Taking::of(set * places, systems, &job.hits_files, |place| job.wants(place));
+        let systems = (&mut contestants[..], job.systems.len());
+        let mut taking = Taking::of(set * places, systems, &job.hits_files, |place| job.wants(place));
         if taking.is_empty() {
             continue;
         }
@@ -180,7 +180,7 @@ fn compare_rays(
         }
         let verdicts = oracle.closest_batch(&rays.iter().map(oracle_ray).collect::<Vec<_>>());
         let set = RaysWithTruth { name, rays, verdicts };
-        compare_set(device, &taking, &set, wanted, |hits| hits, comparison)?;
+        compare_set(device, &mut taking, &set, wanted, |hits| hits, comparison)?;
         for (place, run) in comparison.places.iter().zip(&comparison.runs).skip(done) {
             if finished(FinishedRun { place: *place, run, pixels: None }).is_break() {
                 return Ok(ControlFlow::Break(()));

@@ -1,6 +1,5 @@
 //! Contestants, the systems of a comparison: each has a structure, built in turns with the others.
 
-use rasray_ads::Counters;
 use rasray_gpu::Device;
 use rasray_systems::Spec;
 
@@ -15,7 +14,7 @@ use rasray_report::{ListRecord, Run, Times};
 pub struct Contestant<'a> {
     /// Configuration of the system.
     pub config: &'a SystemConfig,
-    /// Spec of the structure, which counts the work of rays.
+    /// Spec of the structure.
     pub spec: Spec,
     /// Structure of the system after its build.
     pub built: Built,
@@ -62,7 +61,7 @@ impl<'a> Contestant<'a> {
             if stops(config.system.name) {
                 return Ok(None);
             }
-            let spec = config.spec()?.with_counters(Counters::Sums);
+            let spec = config.spec()?;
             let built = Built::new(device, &spec, &stage.scene, center)?;
             contestants.push(Self { config, spec, built, lists: Vec::new() });
         }

@@ -52,11 +52,11 @@ pub(super) fn hard(
     };
     let wants = |place: usize| job.only.as_ref().is_none_or(|only| only.contains(&place));
     let around = (case.eye, job.repetitions);
-    let Some(contestants) = Contestant::some(device, &stage, job.systems, wants, around, &mut of_case)?
+    let Some(mut contestants) = Contestant::some(device, &stage, job.systems, wants, around, &mut of_case)?
     else {
         return Ok(comparison);
     };
-    let taking = Taking::of(0, (&contestants, job.systems.len()), job.hits_files, wants);
+    let mut taking = Taking::of(0, (&mut contestants, job.systems.len()), job.hits_files, wants);
     if progress(Progress { task: case.id, done: 0, total: 0, unit: "rays" }).is_break() {
         return Ok(comparison);
     }
@@ -67,7 +67,7 @@ pub(super) fn hard(
     let wanted =
         Wanted { repetitions: job.repetitions, seed: job.seed, figures: job.figures, keep: job.keep };
     let name = |hits: Vec<Hit>| hits.into_iter().map(|hit| placed.named(hit)).collect();
-    let answers = compare_set(device, &taking, &set, wanted, name, &mut comparison)?;
+    let answers = compare_set(device, &mut taking, &set, wanted, name, &mut comparison)?;
     for ray in comparison.kept.sets.iter_mut().flat_map(|set| &mut set.rays) {
         ray.exclude_primitive = placed.id(ray.exclude_primitive);
     }

@@ -1,8 +1,8 @@
 //! Set of rays that is traced through all systems in turns, compared with the truth, and kept if wanted.
 
-use std::borrow::Borrow;
+use std::borrow::BorrowMut;
 
-use rasray_ads::{Hit, QueueCounters, Ray, StructureKind, TraceMode};
+use rasray_ads::{Counters, Hit, QueueCounters, Ray, StructureKind, TraceMode};
 use rasray_gpu::Device;
 use rasray_reference::oracle::{Outcome, Verdict};
 use rasray_tracer::BatchTracer;
@@ -33,23 +33,23 @@ pub(super) struct RaysWithTruth {
 
 /// Contestants that answer a set, each with the place of its cell.
 #[derive(Default)]
-pub(super) struct Taking<'a> {
+pub(super) struct Taking<'a, 'b> {
     /// Systems, which trace it in turns.
-    pub(super) systems: Vec<(usize, &'a Contestant<'a>)>,
+    pub(super) systems: Vec<(usize, &'a mut Contestant<'b>)>,
     /// Hits found elsewhere, evaluated like a system's.
     pub(super) given: Vec<(usize, &'a HitsFile)>,
 }
 
-impl<'a> Taking<'a> {
+impl<'a, 'b> Taking<'a, 'b> {
     /// Selects the contestants whose cells are wanted. Places count from `first`: all `systems` with their
     /// positions in the job, of which there are `count`, then the files of hits.
     pub(super) fn of(
         first: usize,
-        (contestants, count): (&'a [(usize, Contestant<'a>)], usize),
+        (contestants, count): (&'a mut [(usize, Contestant<'b>)], usize),
         given: &'a [HitsFile],
         wants: impl Fn(usize) -> bool,
     ) -> Self {
-        let systems = contestants.iter().map(|(position, contestant)| (first + position, contestant));
+        let systems = contestants.iter_mut().map(|(position, contestant)| (first + *position, contestant));
         let given = given.iter().enumerate().map(|(position, file)| (first + count + position, file));
         Self {
             systems: systems.filter(|(place, _)| wants(*place)).collect(),
@@ -91,7 +91,7 @@ pub struct TracedSet {
 /// converts hits of the device to the ids of the truth. Returns the converted answers of each new run.
 pub(super) fn compare_set(
     device: &Device,
-    taking: &Taking<'_>,
+    taking: &mut Taking<'_, '_>,
     set: &RaysWithTruth,
     wanted: Wanted,
     name_hits: impl Fn(Vec<Hit>) -> Vec<Hit>,
@@ -108,8 +108,9 @@ pub(super) fn compare_set(
         }
     }
     let mut answers = Vec::new();
-    let contestants: Vec<_> = taking.systems.iter().map(|(_, contestant)| *contestant).collect();
-    let traces = trace_in_turns(device, &contestants, &set.rays, wanted.repetitions)?;
+    let mut contestants: Vec<_> =
+        taking.systems.iter_mut().map(|(_, contestant)| &mut **contestant).collect();
+    let traces = trace_in_turns(device, &mut contestants, &set.rays, wanted.repetitions)?;
     for ((place, contestant), mut traced) in taking.systems.iter().zip(traces) {
         traced.hits = name_hits(traced.hits);
         let mut run = run_of(device, contestant, set, &traced, wanted.seed)?;
@@ -165,27 +166,33 @@ fn evaluate(
     Ok(())
 }
 
-/// Traces rays through all systems in turns: once to warm up, then `repetitions` times. Returns one answer
-/// for each contestant.
+/// Traces rays through all systems: once to count their work, then in turns with kernels that count nothing,
+/// once to warm up and `repetitions` times for their times. Returns one answer for each contestant.
 ///
 /// # Errors
 /// The device fails, or rays do not finish.
 pub fn trace_in_turns<'a>(
     device: &Device,
-    contestants: &[impl Borrow<Contestant<'a>>],
+    contestants: &mut [impl BorrowMut<Contestant<'a>>],
     rays: &[Ray],
     repetitions: u32,
 ) -> Result<Vec<TracedSet>, ExperimentError> {
     let tracer = BatchTracer::new(device, rays.len().clamp(1, BATCH) as u32)?;
     let timing = device.best_timing();
-    let mut traces: Vec<TracedSet> = contestants.iter().map(|_| TracedSet::default()).collect();
+    let mut traces = Vec::with_capacity(contestants.len());
+    for contestant in contestants.iter_mut() {
+        let built = &mut contestant.borrow_mut().built;
+        built.set_counters(device, Counters::Sums)?;
+        let counters = tracer.trace(built.structure(), rays, TraceMode::Closest, timing)?.counters;
+        built.set_counters(device, Counters::Off)?;
+        traces.push(TracedSet { counters, ..TracedSet::default() });
+    }
     for repetition in 0..=repetitions {
         for (contestant, traced) in contestants.iter().zip(&mut traces) {
-            let outcome =
-                tracer.trace(contestant.borrow().built.structure(), rays, TraceMode::Closest, timing)?;
+            let structure = contestant.borrow().built.structure();
+            let outcome = tracer.trace(structure, rays, TraceMode::Closest, timing)?;
             if repetition == 0 {
                 traced.hits = outcome.hits;
-                traced.counters = outcome.counters;
             } else {
                 traced.milliseconds.push(outcome.milliseconds());
                 traced.passes.repeat();

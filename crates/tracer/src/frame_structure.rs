@@ -2,7 +2,9 @@
 
 use std::collections::VecDeque;
 
-use rasray_ads::{AdsError, Check, Geometry, GeometryParts, PoolStatus, SceneBinding, Structure, Viewpoint};
+use rasray_ads::{
+    AdsError, Check, Counters, Geometry, GeometryParts, PoolStatus, SceneBinding, Structure, Viewpoint,
+};
 use rasray_gpu::{Device, Recorder};
 
 use crate::Refresh;
@@ -213,6 +215,15 @@ impl FrameStructure {
     /// As [`Structure::set_scene`].
     pub fn set_scene(&mut self, scene: &SceneBinding) -> Result<(), AdsError> {
         self.replace(|structure| structure.set_scene(scene))
+    }
+
+    /// Makes rays record another amount of their work from the next recording on
+    /// ([`Structure::set_counters`]). Builds are kept.
+    ///
+    /// # Errors
+    /// As [`Structure::set_counters`].
+    pub fn set_counters(&mut self, device: &Device, counters: Counters) -> Result<(), AdsError> {
+        self.structure.structure_mut().set_counters(device, counters)
     }
 
     /// Returns the number of rounds that a trace recorded now has, summed over all parts. It is larger than

@@ -64,6 +64,7 @@ pub struct TraceKernelsDesc<'a> {
 /// Pipelines that trace a queue through one structure.
 #[derive(Debug)]
 pub struct TraceKernels {
+    source: Source,
     trace: ComputePipeline,
     /// Labels of traces for nearest hits and for occlusion.
     trace_labels: [String; 2],
@@ -80,6 +81,32 @@ struct Kernel {
     pipeline: ComputePipeline,
 }
 
+/// Inputs of the pipelines that all of them share, and the module of the trace.
+#[derive(Debug)]
+struct Source {
+    trace: &'static Shader,
+    sets: Vec<SetLayout>,
+    constants: Vec<(u32, u32)>,
+}
+
+impl Source {
+    fn pipeline(
+        &self,
+        device: &Device,
+        shader: &'static Shader,
+        counters: Counters,
+    ) -> Result<ComputePipeline, AdsError> {
+        let constants = [&[(COUNTERS, counters.constant())], &self.constants[..]].concat();
+        Ok(device.create_compute_pipeline(&ComputePipelineDesc {
+            name: shader.name,
+            module: &shader.module(),
+            sets: &self.sets.iter().collect::<Vec<_>>(),
+            push_constant_bytes: size_of::<TraceConstants>() as u32,
+            constants: &constants,
+        })?)
+    }
+}
+
 impl TraceKernels {
     /// Makes the pipelines.
     ///
@@ -87,36 +114,26 @@ impl TraceKernels {
     /// The device refuses a pipeline.
     pub fn new(device: &Device, geometry: &Geometry, desc: &TraceKernelsDesc<'_>) -> Result<Self, AdsError> {
         let queue_layout = RayQueue::layout(device)?;
-        let mut sets = vec![geometry.layout(), desc.structure_layout, &queue_layout];
-        if let Some(scene) = desc.scene {
-            sets.push(&scene.layout);
-        }
-        let nested = u32::from(nests_searches(device.driver()));
-        let mut constants = vec![(COUNTERS, desc.counters.constant()), (NESTED_SEARCH, nested)];
+        let TraceModules { trace, surfaces, first_hits } = desc.modules;
+        let mut sets = vec![geometry.layout().clone(), desc.structure_layout.clone(), queue_layout.clone()];
+        sets.extend(desc.scene.map(|scene| scene.layout.clone()));
+        let mut constants = vec![(NESTED_SEARCH, u32::from(nests_searches(device.driver())))];
         constants.extend_from_slice(desc.constants);
         constants.extend(desc.scene.iter().flat_map(|scene| &scene.constants));
-        let pipeline = |shader: &'static Shader| {
-            device.create_compute_pipeline(&ComputePipelineDesc {
-                name: shader.name,
-                spirv: &shader.words(),
-                sets: &sets,
-                push_constant_bytes: size_of::<TraceConstants>() as u32,
-                constants: &constants,
-            })
-        };
+        let source = Source { trace, sets, constants };
         let kernel = |shader: &'static Shader| -> Result<Kernel, AdsError> {
-            Ok(Kernel { label: shader.name, pipeline: pipeline(shader)? })
+            let pipeline = source.pipeline(device, shader, desc.counters)?;
+            Ok(Kernel { label: shader.name, pipeline })
         };
-        let TraceModules { trace, surfaces, first_hits } = desc.modules;
         let next_round = device.create_compute_pipeline(&ComputePipelineDesc {
             name: "ads/queue_next_round",
-            spirv: &rasray_shaders_glsl::ADS_QUEUE_NEXT_ROUND.words(),
+            module: &rasray_shaders_glsl::ADS_QUEUE_NEXT_ROUND.module(),
             sets: &[geometry.layout(), desc.structure_layout, &queue_layout],
             push_constant_bytes: size_of::<NextRoundConstants>() as u32,
             constants: &[],
         })?;
         Ok(Self {
-            trace: pipeline(trace)?,
+            trace: source.pipeline(device, trace, desc.counters)?,
             trace_labels: ["/trace_closest", "/trace_occluded"]
                 .map(|label| trace.name.replacen("/trace", label, 1)),
             surfaces: surfaces.filter(|_| desc.scene.is_some()).map(kernel).transpose()?,
@@ -124,7 +141,18 @@ impl TraceKernels {
             next_round,
             scene: desc.scene.cloned(),
             work_budget: desc.work_budget,
+            source,
         })
+    }
+
+    /// Makes rays record another amount of their work from the next recording on. Nothing changes after an
+    /// error.
+    ///
+    /// # Errors
+    /// The device refuses the pipeline.
+    pub fn set_counters(&mut self, device: &Device, counters: Counters) -> Result<(), AdsError> {
+        self.trace = self.source.pipeline(device, self.source.trace, counters)?;
+        Ok(())
     }
 
     /// Makes the kernels read another scene from the next recording on. The kernels do not change after an

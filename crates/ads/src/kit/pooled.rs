@@ -11,8 +11,8 @@ use crate::kit::{
     TraceKernels, TraceKernelsDesc, default_work_budget,
 };
 use crate::{
-    AdsError, BuildStatus, Check, Description, Domain, Geometry, GeometryRigid, InlineTrace, Inspect,
-    ListCounts, PoolSize, PoolStatus, RayQueue, RecordLayout, SceneBinding, Sizes, Start, Structure,
+    AdsError, BuildStatus, Check, Counters, Description, Domain, Geometry, GeometryRigid, InlineTrace,
+    Inspect, ListCounts, PoolSize, PoolStatus, RayQueue, RecordLayout, SceneBinding, Sizes, Start, Structure,
     StructureKind, StructureReport, Trace, TracedPart, Viewpoint,
 };
 
@@ -235,6 +235,12 @@ impl<D: Design> Structure for Pooled<D> {
             *read = scene.set.clone();
             self.is_scene_new = true;
         }
+        Ok(())
+    }
+
+    fn set_counters(&mut self, device: &Device, counters: Counters) -> Result<(), AdsError> {
+        self.kernels.set_counters(device, counters)?;
+        self.description.counters = counters;
         Ok(())
     }
 
