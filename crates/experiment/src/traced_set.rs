@@ -1,11 +1,12 @@
 //! Set of rays that is traced through all systems in turns, compared with the truth, and kept if wanted.
 
 use std::borrow::BorrowMut;
+use std::time::{Duration, Instant};
 
 use rasray_ads::{Counters, Hit, QueueCounters, Ray, StructureKind, TraceMode};
 use rasray_gpu::Device;
 use rasray_reference::oracle::{Outcome, Verdict};
-use rasray_tracer::BatchTracer;
+use rasray_tracer::{BatchTracer, TraceOutcome};
 
 use crate::contestant::Contestant;
 use crate::error::ExperimentError;
@@ -14,6 +15,10 @@ use crate::jobs::{Answers, Comparison, SavedSet};
 use crate::passes::{Passes, median, spread};
 use rasray_ray_files::{HitsFile, TrueHit};
 use rasray_report::{PassOf, Run, Times};
+
+/// Time for which traces warm up, per timed repetition: systems take tens of milliseconds to spread the threads
+/// of a software driver over all cores.
+const WARM_UP: Duration = Duration::from_millis(10);
 
 /// Largest number of rays that are traced at a time.
 const BATCH: usize = 131_072;
@@ -65,7 +70,7 @@ impl<'a, 'b> Taking<'a, 'b> {
 /// Settings of the traces of every set.
 #[derive(Clone, Copy)]
 pub(super) struct Wanted {
-    /// Number of timed traces of each set after one that warms up, at least 1.
+    /// Number of timed traces of each set after those that warm up, at least 1.
     pub(super) repetitions: u32,
     /// Seed that the rays were drawn with.
     pub(super) seed: u32,
@@ -167,7 +172,7 @@ fn evaluate(
 }
 
 /// Traces rays through all systems: once to count their work, then in turns with kernels that count nothing,
-/// once to warm up and `repetitions` times for their times. Returns one answer for each contestant.
+/// first to warm up and then `repetitions` times to be timed. Returns one answer for each contestant.
 ///
 /// # Errors
 /// The device fails, or rays do not finish.
@@ -187,18 +192,25 @@ pub fn trace_in_turns<'a>(
         built.set_counters(device, Counters::Off)?;
         traces.push(TracedSet { counters, ..TracedSet::default() });
     }
-    for repetition in 0..=repetitions {
-        for (contestant, traced) in contestants.iter().zip(&mut traces) {
+    let turn = |traces: &mut [TracedSet], keep: &dyn Fn(&mut TracedSet, TraceOutcome)| {
+        for (contestant, traced) in contestants.iter().zip(traces) {
             let structure = contestant.borrow().built.structure();
-            let outcome = tracer.trace(structure, rays, TraceMode::Closest, timing)?;
-            if repetition == 0 {
-                traced.hits = outcome.hits;
-            } else {
-                traced.milliseconds.push(outcome.milliseconds());
-                traced.passes.repeat();
-                traced.passes.add(&outcome.passes);
-            }
+            keep(traced, tracer.trace(structure, rays, TraceMode::Closest, timing)?);
         }
+        Ok::<_, ExperimentError>(())
+    };
+    // The first turn compiles kernels.
+    turn(&mut traces, &|traced, outcome| traced.hits = outcome.hits)?;
+    let warm = Instant::now();
+    while warm.elapsed() < WARM_UP * repetitions {
+        turn(&mut traces, &|_, _| ())?;
+    }
+    for _ in 0..repetitions {
+        turn(&mut traces, &|traced, outcome| {
+            traced.milliseconds.push(outcome.milliseconds());
+            traced.passes.repeat();
+            traced.passes.add(&outcome.passes);
+        })?;
     }
     Ok(traces)
 }
