@@ -71,6 +71,12 @@ layout(set = QUEUE_SET, binding = 1, scalar) buffer QueueRayBuffer {
 layout(set = QUEUE_SET, binding = 2, scalar) buffer QueueHitBuffer {
     Hit queue_hits[];
 };
+layout(set = QUEUE_SET, binding = 1, scalar) buffer QueueRayVectorBuffer {
+    uvec4 queue_ray_vectors[];
+};
+layout(set = QUEUE_SET, binding = 2, scalar) buffer QueueHitVectorBuffer {
+    uvec4 queue_hit_vectors[];
+};
 layout(set = QUEUE_SET, binding = 3, scalar) buffer QueueStateBuffer {
     TraceState queue_states[];
 };
@@ -127,7 +133,11 @@ void queue_select(uint slot) {
 }
 
 Ray queue_ray(uint slot) {
-    return queue_rays[slot];
+    uvec4 start = queue_ray_vectors[3u * slot];
+    uvec4 way = queue_ray_vectors[3u * slot + 1u];
+    uvec4 rest = queue_ray_vectors[3u * slot + 2u];
+    return Ray(uintBitsToFloat(start.xyz), uintBitsToFloat(start.w), uintBitsToFloat(way.xyz), uintBitsToFloat(way.w),
+        rest.x, rest.y, uintBitsToFloat(rest.z), uintBitsToFloat(rest.w));
 }
 
 void queue_set_ray(uint slot, Ray ray) {
@@ -139,7 +149,7 @@ Hit queue_hit(uint slot) {
 }
 
 void queue_set_hit(uint slot, Hit hit) {
-    queue_hits[slot] = hit;
+    queue_hit_vectors[slot] = uvec4(floatBitsToUint(hit.t), hit.primitive, floatBitsToUint(vec2(hit.a, hit.b)));
 }
 
 Surface queue_surface(uint slot) {

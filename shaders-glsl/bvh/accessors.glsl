@@ -6,23 +6,19 @@
 #define BVH_ACCESSORS_GLSL
 
 #include "ads/pools.glsl"
-#include "bvh/types.glsl"
 #include "bvh/steps.glsl"
+#include "bvh/types.glsl"
 
 STRUCTURE_HEADER(Bvh, bvh)
 #define BVH_HEADER(s) STRUCTURE_HEADER_OF(Bvh, bvh, s)
 
 POOL_RECORDS(bvh, nodes, 1, BvhNode)
 POOL_RECORDS(bvh, nodes_of_four, 1, BvhNodeOfFour)
-POOL_VECTORS(bvh, node_vectors, 1, uvec4, 16)
 POOL_RECORDS(bvh, records, 2, BvhRecord)
-POOL_VECTORS(bvh, record_vectors, 2, uvec2, 8)
 POOL_WORDS(bvh, scratch, 3)
 #define BVH_NODES(s) POOL_VIEW_OF(bvh, nodes, BVH_HEADER(s).nodes_address)
 #define BVH_NODES_OF_FOUR(s) POOL_VIEW_OF(bvh, nodes_of_four, BVH_HEADER(s).nodes_address)
-#define BVH_NODE_VECTORS(s) POOL_VIEW_OF(bvh, node_vectors, BVH_HEADER(s).nodes_address)
 #define BVH_RECORDS(s) POOL_VIEW_OF(bvh, records, BVH_HEADER(s).records_address)
-#define BVH_RECORD_VECTORS(s) POOL_VIEW_OF(bvh, record_vectors, BVH_HEADER(s).records_address)
 #define BVH_POOL(s, pool) POOL_WORDS_OF(bvh, pool, BVH_HEADER(s))
 
 // Adds to the count of invalid indices. Readers count in a variable and call this once, because an atomic in
@@ -31,58 +27,6 @@ void bvh_count_corrupted(BvhRef s, uint corrupted) {
     if (corrupted != 0u) {
         atomicAdd(BVH_HEADER(s).corrupted, corrupted);
     }
-}
-
-// The children of one node as a ray sees them: component i of each vector belongs to child i. Along each axis
-// a box has a side that the ray reaches first and one that it reaches last; which is which follows from the
-// signs of the ray's direction.
-struct BvhChildren {
-    vec4 first_x;           // x of the sides that the ray reaches first
-    vec4 last_x;            // x of the sides that the ray reaches last
-    vec4 first_y;           // y of the sides that the ray reaches first
-    vec4 last_y;            // y of the sides that the ray reaches last
-    vec4 first_z;           // z of the sides that the ray reaches first
-    vec4 last_z;            // z of the sides that the ray reaches last
-    uvec4 references;       // child references; BVH_NONE where there is no child
-};
-
-// Reads the children of a node as whole vectors. `descends` says along which axes the ray's direction is
-// negative. A node of two has no third and fourth child. An index past the end is counted, and gives boxes
-// that are far away.
-BvhChildren bvh_children(BvhRef s, uint node, uint node_capacity, bvec3 descends, inout uint corrupted) {
-    if (node >= node_capacity) {
-        corrupted += 1u;
-        const vec4 far = vec4(3.0e38);
-        return BvhChildren(far, far, far, far, far, far, uvec4(BVH_NONE));
-    }
-    if (BVH_CHILDREN == BVH_FOUR) {
-        uvec4 place = BVH_NODE_VECTORS(s)[4u * node];
-        uvec4 sides_xy = BVH_NODE_VECTORS(s)[4u * node + 1u];
-        uvec4 sides_z = BVH_NODE_VECTORS(s)[4u * node + 2u];
-        vec3 origin = uintBitsToFloat(place.xyz);
-        vec3 sizes = bvh_steps_sizes(place.w);
-        uvec3 lower = uvec3(sides_xy.xz, sides_z.x);
-        uvec3 upper = uvec3(sides_xy.yw, sides_z.y);
-        uvec3 first = mix(lower, upper, descends);
-        uvec3 last = mix(upper, lower, descends);
-        return BvhChildren(
-            bvh_steps_sides(first.x, origin.x, sizes.x), bvh_steps_sides(last.x, origin.x, sizes.x),
-            bvh_steps_sides(first.y, origin.y, sizes.y), bvh_steps_sides(last.y, origin.y, sizes.y),
-            bvh_steps_sides(first.z, origin.z, sizes.z), bvh_steps_sides(last.z, origin.z, sizes.z),
-            BVH_NODE_VECTORS(s)[4u * node + 3u]);
-    }
-    uvec4 lower_0 = BVH_NODE_VECTORS(s)[4u * node];
-    uvec4 upper_0 = BVH_NODE_VECTORS(s)[4u * node + 1u];
-    uvec4 lower_1 = BVH_NODE_VECTORS(s)[4u * node + 2u];
-    uvec4 upper_1 = BVH_NODE_VECTORS(s)[4u * node + 3u];
-    uvec3 first_0 = mix(lower_0.xyz, upper_0.xyz, descends);
-    uvec3 last_0 = mix(upper_0.xyz, lower_0.xyz, descends);
-    uvec3 first_1 = mix(lower_1.xyz, upper_1.xyz, descends);
-    uvec3 last_1 = mix(upper_1.xyz, lower_1.xyz, descends);
-    return BvhChildren(uintBitsToFloat(uvec4(first_0.x, first_1.x, first_0.xx)), uintBitsToFloat(uvec4(last_0.x, last_1.x, last_0.xx)),
-        uintBitsToFloat(uvec4(first_0.y, first_1.y, first_0.yy)), uintBitsToFloat(uvec4(last_0.y, last_1.y, last_0.yy)),
-        uintBitsToFloat(uvec4(first_0.z, first_1.z, first_0.zz)), uintBitsToFloat(uvec4(last_0.z, last_1.z, last_0.zz)),
-        uvec4(lower_0.w, upper_0.w, uvec2(BVH_NONE)));
 }
 
 // Returns the link by which a node is reached.
@@ -114,20 +58,6 @@ uint bvh_leaf_first(uint reference) {
 // Returns the number of records of a leaf.
 uint bvh_leaf_count(uint reference) {
     return ((reference & ~BVH_LEAF) >> BVH_LEAF_SHIFT) + 1u;
-}
-
-// Reads a record as whole vectors. An index past the end is counted, and gives a triangle without area.
-BvhRecord bvh_record(BvhRef s, uint record, uint record_capacity, inout uint corrupted) {
-    if (record >= record_capacity) {
-        corrupted += 1u;
-        return BvhRecord(vec3(0.0), vec3(0.0), vec3(0.0), PRIMITIVE_NONE);
-    }
-    uvec2 a = BVH_RECORD_VECTORS(s)[5u * record];
-    uvec2 b = BVH_RECORD_VECTORS(s)[5u * record + 1u];
-    uvec2 c = BVH_RECORD_VECTORS(s)[5u * record + 2u];
-    uvec2 d = BVH_RECORD_VECTORS(s)[5u * record + 3u];
-    uvec2 e = BVH_RECORD_VECTORS(s)[5u * record + 4u];
-    return BvhRecord(uintBitsToFloat(uvec3(a, b.x)), uintBitsToFloat(uvec3(b.y, c)), uintBitsToFloat(uvec3(d, e.x)), e.y);
 }
 
 void bvh_set_record(BvhRef s, uint record, BvhRecord value) {

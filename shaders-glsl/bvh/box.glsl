@@ -5,7 +5,7 @@
 #ifndef BVH_BOX_GLSL
 #define BVH_BOX_GLSL
 
-#include "bvh/accessors.glsl"
+#include "bvh/loads.glsl"
 
 // Key of a child that the ray does not enter.
 #define BVH_NO_KEY 0xFFFFFFFFu

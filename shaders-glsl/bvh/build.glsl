@@ -8,6 +8,7 @@
 #define BVH_BUILD_GLSL
 
 #include "ads/geometry.glsl"
+#include "bvh/loads.glsl"
 #include "bvh/scratch.glsl"
 #include "bvh/names.glsl"
 #include "ads/build_constants.glsl"

@@ -15,8 +15,8 @@
 
 #include "contract/trace_functions.glsl"
 #include "ads/evaluate.glsl"
-#include "bvh/accessors.glsl"
 #include "bvh/box.glsl"
+#include "bvh/loads.glsl"
 
 // Value of cursor[0]: the ray has not begun.
 #define BVH_AT_START 0u
@@ -50,21 +50,26 @@
 // on the stack, goes to the parent of the subtree `within`, which contains everything visited since the stack
 // was last discarded. If that subtree is the whole tree, the ray is done.
 #define BVH_NEXT \
-    child = BVH_NONE; \
-    while (child == BVH_NONE && stack_size > 0u) { \
+    bool waits = false; \
+    while (!waits && stack_size > 0u) { \
         stack_size -= 1u; \
-        child = stack_entries[stack_size] <= best.t ? stack_children[stack_size] : BVH_NONE; \
+        waits = stack_entries[stack_size] <= best.t; \
     } \
-    left = BVH_CHILDREN; \
-    if (child == BVH_NONE) { \
-        done = within == BVH_NONE; \
-        child = within / BVH_CHILDREN; \
-        left = within % BVH_CHILDREN; \
-    }
+    done = !waits && within == BVH_NONE; \
+    child = waits ? stack_children[stack_size] : within / BVH_CHILDREN; \
+    left = waits ? BVH_CHILDREN : within % BVH_CHILDREN;
 
 uint bvh_trace(BvhRef s, Ray ray, inout TraceState state, bool any_hit) {
     uint root = BVH_HEADER(s).root;
+    // The capacities are read before the loop, because drivers read a word of a buffer again in each
+    // iteration.
+    uint node_capacity = BVH_HEADER(s).node_capacity;
+    uint record_capacity = BVH_HEADER(s).record_capacity;
     if (root == BVH_NONE) {
+        return TRACE_MISS;
+    }
+    if ((root & BVH_LEAF) == 0u && node_capacity == 0u) {
+        bvh_count_corrupted(s, 1u);
         return TRACE_MISS;
     }
     BvhRay slabs = bvh_ray(ray.origin, ray.direction, ray.t_min, BVH_HEADER(s).lower, BVH_HEADER(s).upper);
@@ -87,10 +92,6 @@ uint bvh_trace(BvhRef s, Ray ray, inout TraceState state, bool any_hit) {
     uint stack_children[BVH_STACK];
     float stack_entries[BVH_STACK];
     uint stack_size = 0u;
-    // The capacities are read before the loop, because drivers read a word of a buffer again in each
-    // iteration.
-    uint node_capacity = BVH_HEADER(s).node_capacity;
-    uint record_capacity = BVH_HEADER(s).record_capacity;
     uint nodes = 0u;
     uint tests = 0u;
     uint corrupted = 0u;
@@ -98,10 +99,14 @@ uint bvh_trace(BvhRef s, Ray ray, inout TraceState state, bool any_hit) {
     bool done = false;
     while (!done) {
         while (!done && (child & BVH_LEAF) == 0u && nodes + tests < work_budget) {
-            BvhChildren node = bvh_children(s, child, node_capacity, slabs.descends, corrupted);
+            // Where a reference is damaged, an existing node is read and none of its children is entered:
+            // values to return in its place would have to be merged with those of the node in each iteration.
+            bool exists = child < node_capacity;
+            corrupted += uint(!exists);
+            BvhChildren node = bvh_children(s, min(child, node_capacity - 1u), slabs.descends);
             nodes += 1u;
             bvec4 entered;
-            uvec4 keys = bvh_keys(slabs, node, best.t, entered);
+            uvec4 keys = bvh_keys(slabs, node, exists ? best.t : -BVH_INFINITY, entered);
             if (left < BVH_CHILDREN) {
                 within = bvh_parent(s, child);
                 entered = mix(bvec4(false), entered, greaterThan(keys, uvec4(keys[left])));
@@ -145,8 +150,12 @@ uint bvh_trace(BvhRef s, Ray ray, inout TraceState state, bool any_hit) {
         }
         uint first = bvh_leaf_first(child);
         uint count = bvh_leaf_count(child);
+        if (first >= record_capacity || count > record_capacity - first) {
+            corrupted += 1u;
+            count = 0u;
+        }
         for (uint record = first; record < first + count; record++) {
-            BvhRecord triangle = bvh_record(s, record, record_capacity, corrupted);
+            BvhRecord triangle = bvh_existing_record(s, record);
             test_corners(ray, triangle.primitive, triangle.a, triangle.b, triangle.c, -BVH_INFINITY, BVH_INFINITY, best);
         }
         tests += count;

@@ -6,6 +6,9 @@
 #extension GL_EXT_buffer_reference : require
 #extension GL_EXT_buffer_reference_uvec2 : require
 #endif
+#ifdef BVH_WORDS_64
+#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
+#endif
 #ifdef RAY_QUERY
 #extension GL_EXT_ray_query : require
 #endif

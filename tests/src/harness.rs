@@ -35,6 +35,7 @@ pub fn requirements() -> Requirements {
     requirements.optional.push((Feature::AccelerationStructure, queried));
     requirements.optional.push((Feature::RayQuery, queried));
     requirements.optional.push((Feature::ConservativeRasterization, "lists of tiles that it touches"));
+    requirements.optional.push((Feature::Int64, "nodes read in words of 64 bits"));
     requirements
 }
 

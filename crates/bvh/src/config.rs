@@ -3,6 +3,7 @@
 use rasray_ads::kit::{check_range, check_work_budget};
 use rasray_ads::words;
 use rasray_ads::{Addressing, AdsError, Counters};
+use rasray_gpu::{Device, Feature};
 use rasray_shaders_glsl::constants::bvh::{BVH_FOUR, BVH_LEAF_LIMIT};
 
 use crate::{Node, NodeOfFour};
@@ -67,6 +68,15 @@ pub enum Chunks {
     Shared,
 }
 
+/// Size of the words in which rays read nodes and triangles. The values read do not depend on it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Loads {
+    /// Words of 32 bits, which every device can read.
+    Bits32,
+    /// Words of 64 bits, which need [`Feature::Int64`]: half as many loads for a driver that reads word by word.
+    Bits64,
+}
+
 /// Options of a BVH. None of them changes a hit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Config {
@@ -82,6 +92,9 @@ pub struct Config {
     /// Way in which the device works on chunks. If absent, [`Chunks::Serial`] on software devices and
     /// [`Chunks::Shared`] on others.
     pub chunks: Option<Chunks>,
+    /// Size of the words in which rays read. If absent, [`Loads::Bits64`] on software devices that have
+    /// [`Feature::Int64`], and [`Loads::Bits32`] on others.
+    pub loads: Option<Loads>,
     /// Addressing of pools: descriptors or device addresses.
     pub addressing: Addressing,
     /// Counters that rays record of their work: nodes read and triangles tested.
@@ -101,6 +114,7 @@ impl Config {
             children: None,
             leaf: None,
             chunks: None,
+            loads: None,
             addressing: Addressing::Descriptor,
             counters: Counters::Off,
             work_budget: None,
@@ -118,6 +132,12 @@ impl Config {
     /// Returns the maximum number of triangles per leaf: the chosen one, or the builder's default.
     pub fn made_leaf(&self) -> u32 {
         self.leaf.unwrap_or(if self.chooses_leaves() { 4 } else { 1 })
+    }
+
+    /// Returns the size of the words in which rays read: the chosen one, or the device's default.
+    pub(crate) fn made_loads(&self, device: &Device) -> Loads {
+        let pays = device.is_software() && device.has(Feature::Int64);
+        self.loads.unwrap_or(if pays { Loads::Bits64 } else { Loads::Bits32 })
     }
 
     /// Returns true if triangles may share a leaf.

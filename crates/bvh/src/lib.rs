@@ -29,7 +29,7 @@ mod pool;
 mod structure;
 mod validate;
 
-pub use config::{Builder, Children, Chunks, Config};
+pub use config::{Builder, Children, Chunks, Config, Loads};
 pub use layout::{FormulaBytes, formula_bytes, plan};
 pub use pool::Pool;
 pub use rasray_ads::Addressing;

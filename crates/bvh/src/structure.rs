@@ -7,7 +7,7 @@ use rasray_ads::{
     AdsError, Dependencies, GeometryExtent, RecordLayout, SceneBinding, Sizes, StructureKind,
     StructureReport, Viewpoint,
 };
-use rasray_gpu::{BindingSet, Device, Recorder, Requirements};
+use rasray_gpu::{BindingSet, Device, Feature, Recorder, Requirements};
 use rasray_shaders_glsl::constant_ids::bvh::{BVH_CHILDREN, BVH_CLUSTER_LEAF};
 use rasray_shaders_glsl::constants::bvh::{BVH_LEAF, BVH_NONE};
 
@@ -16,7 +16,9 @@ use crate::four::with_four_children;
 use crate::host::{self, Box3};
 use crate::layout::{BOX_WORDS, NAME, formula_bytes, pair_elements, plan};
 use crate::order::Order;
-use crate::{Builder, Children, Config, Contents, Header, Node, NodeOfFour, Pool, Record, well_formed};
+use crate::{
+    Builder, Children, Config, Contents, Header, Loads, Node, NodeOfFour, Pool, Record, well_formed,
+};
 
 /// Number of rounds that a trace records at first. Each costs two dispatches, even if no ray is left, and
 /// only a ray that hits hundreds of thousands of boxes needs more.
@@ -158,8 +160,21 @@ impl Design for Passes {
         Dependencies::default()
     }
 
-    fn requirements(_config: &Config) -> Requirements {
-        Requirements::compute()
+    fn requirements(config: &Config) -> Requirements {
+        let mut requirements = Requirements::compute();
+        match config.loads {
+            None => requirements.optional.push((Feature::Int64, "half as many loads on software devices")),
+            Some(Loads::Bits32) => {}
+            Some(Loads::Bits64) => requirements.required.push(Feature::Int64),
+        }
+        requirements
+    }
+
+    fn trace_variant(device: &Device, config: &Config) -> String {
+        match config.made_loads(device) {
+            Loads::Bits32 => String::new(),
+            Loads::Bits64 => ".words64".to_owned(),
+        }
     }
 
     fn constants(config: &Config) -> Vec<(u32, u32)> {

@@ -24,6 +24,7 @@ pub fn requirements() -> Requirements {
     requirements
         .optional
         .push((GpuFeature::ConservativeRasterization, "`coverage` conservative-extension of dirt"));
+    requirements.optional.push((GpuFeature::Int64, "faster reads of bvh on software devices"));
     requirements
 }
 

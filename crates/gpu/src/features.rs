@@ -28,6 +28,8 @@ pub enum Feature {
     AccelerationStructure,
     /// Shaders that traverse acceleration structures of the driver (`VK_KHR_ray_query`).
     RayQuery,
+    /// 64-bit integers in shaders (`shaderInt64`).
+    Int64,
     /// Basic, vote, ballot, shuffle and arithmetic subgroup operations in compute shaders.
     SubgroupOperations,
     /// Timestamps on the queue. It needs no Vulkan feature, because pools are reset in the command buffer.
@@ -36,7 +38,7 @@ pub enum Feature {
 
 impl Feature {
     /// All features that this crate knows.
-    pub const ALL: [Feature; 11] = [
+    pub const ALL: [Feature; 12] = [
         Self::ScalarBlockLayout,
         Self::Synchronization2,
         Self::DynamicRendering,
@@ -46,6 +48,7 @@ impl Feature {
         Self::BufferDeviceAddress,
         Self::AccelerationStructure,
         Self::RayQuery,
+        Self::Int64,
         Self::SubgroupOperations,
         Self::TimestampQueries,
     ];
@@ -62,6 +65,7 @@ impl Feature {
             Self::BufferDeviceAddress => "bufferDeviceAddress",
             Self::AccelerationStructure => "accelerationStructure",
             Self::RayQuery => "rayQuery",
+            Self::Int64 => "shaderInt64",
             Self::SubgroupOperations => "subgroup operations",
             Self::TimestampQueries => "timestamp queries",
         }
@@ -113,6 +117,7 @@ impl Feature {
             Self::BufferDeviceAddress => Some(&mut structs.v12.buffer_device_address),
             Self::AccelerationStructure => Some(&mut structs.acceleration_structure.acceleration_structure),
             Self::RayQuery => Some(&mut structs.ray_query.ray_query),
+            Self::Int64 => Some(&mut structs.core.shader_int64),
             Self::ConservativeRasterization | Self::SubgroupOperations | Self::TimestampQueries => None,
         }
     }

@@ -1,8 +1,8 @@
 //! Hits of the BVH are those of brute force, bit for bit, whatever its options and however often rays pause.
 
 use rasray_ads::{BruteForce, Counters, Geometry, Hit, Ray, Structure, TraceMode};
-use rasray_bvh::{Addressing, Builder, Bvh, Children, Config, well_formed};
-use rasray_gpu::Timing;
+use rasray_bvh::{Addressing, Builder, Bvh, Children, Config, Loads, well_formed};
+use rasray_gpu::{Feature, Timing};
 use rasray_tests::conformance::trace_in_rounds;
 use rasray_tests::harness::{Bench, bits};
 use rasray_tests::random::Random;
@@ -162,6 +162,13 @@ fn configurations(builder: Builder) -> Vec<(String, Config, Option<u32>)> {
             paused,
             Some(500),
         ));
+        for loads in [Loads::Bits32, Loads::Bits64] {
+            for addressing in [Addressing::Descriptor, Addressing::Address] {
+                let config = Config { loads: Some(loads), addressing, ..of_number };
+                let name = format!("{loads:?}, {children:?} children per node, {addressing:?}");
+                configurations.push((name, config, None));
+            }
+        }
     }
     configurations
 }
@@ -174,6 +181,10 @@ fn options_change_no_hit(builder: Builder) {
     let hit = expected.occluded.iter().filter(|occluded| **occluded).count();
     assert!(hit > RAYS / 4 && hit < RAYS, "{hit} of {RAYS} rays hit: too few or too many to compare");
     for (name, config, rounds) in configurations(builder) {
+        if config.loads == Some(Loads::Bits64) && !bench.device().has(Feature::Int64) {
+            println!("{name}: the device has no 64-bit integers");
+            continue;
+        }
         let found = of_bvh(&bench, config, &geometry, &rays, rounds);
         same(&expected, &found, &rays, &format!("{builder:?}, {name}"));
     }
