@@ -312,6 +312,8 @@ impl<'a> Recorder<'a> {
                 vk::PipelineBindPoint::COMPUTE => "a dispatch was recorded without a compute pipeline",
                 _ => "a draw was recorded without a raster pipeline",
             });
+        } else if let Some(missing) = self.bound.missing() {
+            self.misuse(&missing);
         }
         self.is_recording()
     }

@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use crate::device::common::{Scale, device, finish, module, shaders, storage};
+use crate::device::common::{Scale, bytes_of, device, finish, module, shaders, storage};
 use rasray_gpu::*;
 
 /// Returns the error of a recording; its message must contain `text`.
@@ -26,6 +26,16 @@ fn the_order_of_commands_is_checked() {
     }
     mistake(&device, "without a compute pipeline", |recorder| recorder.dispatch([1, 1, 1]));
     mistake(&device, "sets were bound without a pipeline", |recorder| recorder.bind_sets(0, &[&scale.set]));
+    mistake(&device, "`scale` uses set 0, which is not bound", |recorder| {
+        recorder.bind_compute(&scale.pipeline);
+        recorder.push_constants(bytes_of(&[64, 2]));
+        recorder.dispatch([1, 1, 1]);
+    });
+    mistake(&device, "`scale` has push constants, which were not set", |recorder| {
+        recorder.bind_compute(&scale.pipeline);
+        recorder.bind_sets(0, &[&scale.set]);
+        recorder.dispatch([1, 1, 1]);
+    });
     mistake(&device, "`open`: the pass was not ended", |recorder| recorder.begin_pass(Stage::Build, "open"));
     mistake(&device, "a pass was ended that was not begun", |recorder| recorder.end_pass());
     mistake(&device, "rendering was not ended", |recorder| recorder.begin_rendering(4, 4));

@@ -95,6 +95,8 @@ fn views_of_a_mask_are_drawn_at_once() {
             .submit(|recorder| {
                 recorder.begin_rendering(4, 4);
                 recorder.bind_raster(&count.pipeline);
+                recorder.bind_sets(0, &[&count.set]);
+                recorder.push_constants(bytes_of(&[4]));
                 recorder.draw(3, 1, 0);
                 recorder.end_rendering();
             })
