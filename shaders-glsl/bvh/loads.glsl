@@ -1,8 +1,8 @@
 // Reads nodes and records as whole vectors.
 // Reads: nodes, records. Writes: nothing.
 // With BVH_WORDS_64 the loads are of 64-bit words. A software driver reads a vector lane by lane and word by
-// word, each behind a test of its bounds, so that half as many words take about half the time. The values are
-// the same.
+// word, each behind a test of its bounds, so that half as many words take about half the time of the loads.
+// The values are the same.
 #ifndef BVH_LOADS_GLSL
 #define BVH_LOADS_GLSL
 
@@ -16,7 +16,7 @@ struct BvhRecordWords {
     uint64_t last;            // the last coordinate of corner c, and the triangle
 };
 
-POOL_VECTORS(bvh, node_halves, 1, u64vec4, 32)
+POOL_VECTORS(bvh, node_halves, 1, u64vec4, 8)
 POOL_VECTORS(bvh, record_words, 2, BvhRecordWords, 8)
 #define BVH_NODE_HALVES(s) POOL_VIEW_OF(bvh, node_halves, BVH_HEADER(s).nodes_address)
 #define BVH_RECORD_WORDS(s) POOL_VIEW_OF(bvh, record_words, BVH_HEADER(s).records_address)

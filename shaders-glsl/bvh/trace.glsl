@@ -68,7 +68,8 @@ uint bvh_trace(BvhRef s, Ray ray, inout TraceState state, bool any_hit) {
     if (root == BVH_NONE) {
         return TRACE_MISS;
     }
-    if ((root & BVH_LEAF) == 0u && node_capacity == 0u) {
+    // Without nodes only a leaf at the root can be entered, from the beginning.
+    if (node_capacity == 0u && ((root & BVH_LEAF) == 0u || state.cursor[0] != BVH_AT_START)) {
         bvh_count_corrupted(s, 1u);
         return TRACE_MISS;
     }
@@ -106,7 +107,8 @@ uint bvh_trace(BvhRef s, Ray ray, inout TraceState state, bool any_hit) {
             BvhChildren node = bvh_children(s, min(child, node_capacity - 1u), slabs.descends);
             nodes += 1u;
             bvec4 entered;
-            uvec4 keys = bvh_keys(slabs, node, exists ? best.t : -BVH_INFINITY, entered);
+            uvec4 keys = bvh_keys(slabs, node, best.t, entered);
+            entered = mix(bvec4(false), entered, bvec4(exists));
             if (left < BVH_CHILDREN) {
                 within = bvh_parent(s, child);
                 entered = mix(bvec4(false), entered, greaterThan(keys, uvec4(keys[left])));

@@ -67,8 +67,9 @@ impl Shader {
     /// Unpacks the module for a pipeline, in the time that [`Shader::words`] takes.
     pub fn module(&self) -> TrustedModule {
         // SAFETY: the words are those that the compiler made of the GLSL in this crate. Its shaders compare
-        // each index with the length of the buffer, or with a capacity that the owner of the buffer wrote.
-        // Their loops are bounded. They follow the addresses of pools alone, which structures write.
+        // each index with the length of a buffer or with a capacity in a header, and follow the addresses of
+        // pools in headers. Headers are written by the crates that own them, whose documentation says that
+        // their counts are trusted.
         unsafe { TrustedModule::new(self.words().into()) }
     }
 }

@@ -294,7 +294,7 @@ impl Geometry {
 
     /// Returns the header that shaders read: a [`GeometryHeader`]. A pass of the host that moves vertices
     /// writes `lower` and `upper` there, ordered with the builds that follow; [`Geometry::bounds`] does not
-    /// change.
+    /// change. Shaders trust all other words, so nothing else may write them.
     pub fn header(&self) -> &Buffer {
         &self.header
     }

@@ -316,7 +316,8 @@ impl RayQueue {
         &self.layout
     }
 
-    /// Returns the buffer of the [`QueueHeader`].
+    /// Returns the buffer of the [`QueueHeader`], for reading. Shaders trust its counts, so nothing else may
+    /// write them.
     pub fn header(&self) -> &Buffer {
         &self.header
     }

@@ -98,12 +98,12 @@ pub trait Structure: Send + Sync {
     /// [`AdsError::OtherScene`], or [`AdsError::NoScene`] where the structure was made without one.
     fn set_scene(&mut self, scene: &SceneBinding) -> Result<(), AdsError>;
 
-    /// Makes rays record another amount of their work, from the next recording on. The build is kept. Making
-    /// the kernel takes as long as for a new structure, unless
+    /// Chooses how much of their work rays count, from the next recording on. The build is kept. Making the
+    /// kernel takes as long as for a new structure, unless
     /// [`Device::keep_pipelines`](rasray_gpu::Device::keep_pipelines) keeps it.
     ///
     /// # Errors
-    /// The device refuses the pipeline; parts of a structure before the one concerned have changed then.
+    /// The device refuses the pipeline. Earlier parts of a structure may already count differently then.
     fn set_counters(&mut self, device: &Device, counters: Counters) -> Result<(), AdsError>;
 
     /// Sets the number of builds whose outcomes are kept separately from now on, at least 1; the initial

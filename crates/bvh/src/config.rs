@@ -73,7 +73,8 @@ pub enum Chunks {
 pub enum Loads {
     /// Words of 32 bits, which every device can read.
     Bits32,
-    /// Words of 64 bits, which need [`Feature::Int64`]: half as many loads for a driver that reads word by word.
+    /// Words of 64 bits, which need [`Feature::Int64`]: half as many loads for a driver that reads word by
+    /// word.
     Bits64,
 }
 

@@ -181,7 +181,7 @@ impl Built {
         self.frames.structure()
     }
 
-    /// Makes rays record another amount of their work.
+    /// Chooses how much of their work rays count.
     ///
     /// # Errors
     /// The device refuses a pipeline.

@@ -16,8 +16,8 @@ use crate::passes::{Passes, median, spread};
 use rasray_ray_files::{HitsFile, TrueHit};
 use rasray_report::{PassOf, Run, Times};
 
-/// Time for which traces warm up, per timed repetition: systems take tens of milliseconds to spread the threads
-/// of a software driver over all cores.
+/// Time for which traces warm up, per timed repetition: an operating system takes tens of milliseconds to
+/// spread the threads of a software driver over all cores.
 const WARM_UP: Duration = Duration::from_millis(10);
 
 /// Largest number of rays that are traced at a time.

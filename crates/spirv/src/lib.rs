@@ -4,7 +4,8 @@
 //! in a given pipeline. Drivers drop it too, but many of them only after they have copied every function to
 //! every call. [`specialised`] drops it before the driver sees it, with the values of the constants.
 //!
-//! All functions take and return the words of a module. None panics for words that are not a module.
+//! Functions take modules as words. None panics for words that are not a module. A [`TrustedModule`] holds
+//! words that somebody vouches for.
 
 mod bindings;
 mod flow;

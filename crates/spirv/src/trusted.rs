@@ -13,11 +13,13 @@ impl TrustedModule {
     /// Vouches for the words of a module.
     ///
     /// # Safety
-    /// The words are valid SPIR-V for the device's Vulkan version and enabled features, with all constants
-    /// that a pipeline is specialised with. The shader ends, and reaches memory only
-    /// - within the buffers bound to its sets, whatever these contain, and
-    /// - through device addresses that it finds in push constants or in these buffers. Whoever writes such an
-    ///   address guarantees that it leads to memory that is alive and large enough.
+    /// The words are valid SPIR-V for the Vulkan version and the enabled features of each device that makes a
+    /// pipeline of them, with all constants that it is specialised with. The shader reaches memory only
+    /// - within the buffers bound to its sets, and
+    /// - through device addresses that it finds in push constants or in these buffers.
+    ///
+    /// It may trust counts and addresses that its buffers hold, such as those of headers, where the
+    /// documentation of these buffers says so. Whoever writes such a word then guarantees that it is right.
     pub const unsafe fn new(words: Cow<'static, [u32]>) -> Self {
         Self { words }
     }

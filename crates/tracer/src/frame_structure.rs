@@ -217,8 +217,8 @@ impl FrameStructure {
         self.replace(|structure| structure.set_scene(scene))
     }
 
-    /// Makes rays record another amount of their work from the next recording on
-    /// ([`Structure::set_counters`]). Builds are kept.
+    /// Chooses how much of their work rays count, from the next recording on ([`Structure::set_counters`]).
+    /// Builds are kept.
     ///
     /// # Errors
     /// As [`Structure::set_counters`].

@@ -173,6 +173,32 @@ fn configurations(builder: Builder) -> Vec<(String, Config, Option<u32>)> {
     configurations
 }
 
+/// The device chooses words of 64 bits only where it is software, and the kernel is that of the choice.
+#[test]
+fn kernels_read_in_the_words_that_are_asked_for() {
+    let bench = Bench::new();
+    let device = bench.device();
+    let geometry = bench.geometry(&layers_and_sphere(8));
+    let has_words = device.has(Feature::Int64);
+    let by_default = if has_words && device.is_software() { ".words64" } else { "" };
+    let wanted = [(None, by_default), (Some(Loads::Bits32), ""), (Some(Loads::Bits64), ".words64")];
+    for (loads, suffix) in wanted.into_iter().filter(|(loads, _)| *loads != Some(Loads::Bits64) || has_words)
+    {
+        let config = Config { loads, ..Config::new(Builder::Sah) };
+        let mut bvh = Bvh::new(device, config, &geometry, None).expect("the options are valid");
+        build_until_complete(device, &mut bvh, [0.0; 3], Timing::None).expect("the build completes");
+        let tracer = BatchTracer::new(device, 1).expect("a queue fits");
+        let ray = Ray::new([0.0; 3], [1.0, 0.0, 0.0]);
+        let outcome = tracer.trace(&bvh, &[ray], TraceMode::Closest, Timing::Host).expect("it finishes");
+        assert_eq!(outcome.passes[0].label, format!("bvh/trace_closest{suffix}"), "{loads:?}");
+    }
+    let required = |loads| Bvh::requirements_of(&Config { loads, ..Config::new(Builder::Sah) }).required;
+    assert!(required(Some(Loads::Bits64)).contains(&Feature::Int64));
+    assert!(
+        !required(Some(Loads::Bits32)).contains(&Feature::Int64) && !required(None).contains(&Feature::Int64)
+    );
+}
+
 fn options_change_no_hit(builder: Builder) {
     let bench = Bench::new();
     let triangles = with_twins(layers_and_sphere(8));

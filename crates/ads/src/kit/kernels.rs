@@ -145,8 +145,7 @@ impl TraceKernels {
         })
     }
 
-    /// Makes rays record another amount of their work from the next recording on. Nothing changes after an
-    /// error.
+    /// Chooses how much of their work rays count, from the next recording on. Nothing changes after an error.
     ///
     /// # Errors
     /// The device refuses the pipeline.

@@ -64,7 +64,7 @@ pub struct CompareArguments {
     /// Rays per set, 1 to 100000000 [default: 200000; 2000 for hard cases]
     #[arg(long, value_name = "N", value_parser = values::whole(1, 100_000_000))]
     pub rays: Option<u32>,
-    /// Times that each build and each set of rays is timed, after once to warm up, 1 to 10000
+    /// Times that each build and each set of rays is timed, after turns to warm up, 1 to 10000
     #[arg(long, value_name = "N", default_value_t = 5, value_parser = values::whole(1, 10_000))]
     pub repetitions: u32,
     /// With a hard case: meshes in the size of the catalogue

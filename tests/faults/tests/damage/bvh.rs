@@ -1,6 +1,6 @@
 //! Damaged trees.
 
-use rasray_bvh::{Addressing, Builder, Bvh, Children, Config, Contents};
+use rasray_bvh::{Addressing, Builder, Bvh, Children, Config, Contents, Loads};
 use rasray_faults::{in_child, scrambled};
 
 use crate::damage::survive::{self, Flag, survive};
@@ -80,7 +80,10 @@ fn damaged_trees_are_survived_and_told() {
         {
             let config = Config { children: Some(children), ..Config::new(builder) };
             for addressing in [Addressing::Descriptor, Addressing::Address] {
-                check(Config { addressing, ..config });
+                // By default software devices read in words of 64 bits.
+                for loads in [None, Some(Loads::Bits32)] {
+                    check(Config { addressing, loads, ..config });
+                }
             }
         }
     }
