@@ -66,8 +66,8 @@ const bool ABUFFER_HAS_CAMERA = (ABUFFER_VIEWS & ABUFFER_VIEWS_CAMERA) != 0u;
 // State and sizes of one A-buffer. Shared, 248 bytes.
 struct AbufferHeader {
     uint status;          // STATUS_*; without STATUS_COMPLETE traces answer "not ready"
-    // fragments that the build found, or pages that it began,
-    uint demand;          // also those beyond the capacity
+    // fragments that the build found, or pages that it began, also those beyond the capacity
+    uint demand;
     uint capacity;        // fragments or pages that the pools hold
     uint near_demand;     // triangles that intersect the near region
     uint near_capacity;   // triangles that the near-region list holds
@@ -100,8 +100,8 @@ struct AbufferHeader {
     uint conservative_capacity; // triangles that the conservative lists hold
     float reach;          // metres: largest coordinate of the geometry relative to the eye
     float rounding;       // metres: how far rounding moves triangles; only with conservative lists
-    // triangles over many cells of a view,
-    uint large_demand;           // also those beyond the capacity; binning only
+    // triangles over many cells of a view, also those beyond the capacity; binning only
+    uint large_demand;
     uint large_capacity;   // triangles that the large-triangle queue holds
     uint groups[3];       // workgroups for these triangles
     uvec2 bounds_address; // device address of the bounds; zero with descriptors, as all addresses below

@@ -72,7 +72,8 @@ layout(set = QUEUE_SET, binding = 2, scalar) buffer QueueHitBuffer {
     Hit queue_hits[];
 };
 // Rays and hits as vectors, for functions that read a whole ray or write a whole hit: a software driver reads
-// and writes member by member otherwise. No shader uses both forms of a buffer on one slot.
+// and writes member by member otherwise. A shader that uses both forms of a buffer on a slot reads the whole
+// ray or hit before it writes, and needs all that it read for what it writes.
 layout(set = QUEUE_SET, binding = 1, scalar) buffer QueueRayVectorBuffer {
     uvec4 queue_ray_vectors[];
 };

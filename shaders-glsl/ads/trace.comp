@@ -1,7 +1,8 @@
 // Finds the nearest hit of every ray of a queue, or any hit, as the push constants say. One kernel does both,
 // since traces are most of what a driver compiles before a first picture.
-// Reads: rays, states of paused rays, the structure. Writes: hits. If any hit will do, an occluded ray gets a
-// hit on some primitive, every other ray one on PRIMITIVE_NONE.
+// Reads: rays, hits of other parts, states and the list of paused rays, the structure. Writes: hits, states,
+// the list, the queue's header; work and steps where they are counted. If any hit will do, an occluded ray
+// gets a hit on some primitive, every other ray one on PRIMITIVE_NONE.
 // One invocation per slot, or per paused ray from the second round on.
 // Source: the wavefront queue of pbrt-v4, section 15.
 #version 460

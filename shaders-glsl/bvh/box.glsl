@@ -54,7 +54,7 @@ BvhRay bvh_ray(vec3 origin, vec3 direction, float t_min, vec3 lower, vec3 upper)
 // Returns the keys of a node's children, by which they are ordered. A key is the bits of the t at which the
 // ray enters the child's box, with the number of the child in the two lowest bits. Keys depend on the ray and
 // the boxes alone. `entered` says which children exist and have boxes that the ray hits before `farthest`.
-uvec4 bvh_keys(BvhRay ray, BvhChildren node, float farthest, out bvec4 entered) {
+uvec4 bvh_child_keys(BvhRay ray, BvhChildren node, float farthest, out bvec4 entered) {
     precise vec4 first_x = (node.first_x - ray.origin_first.x) * ray.inverse.x;
     precise vec4 first_y = (node.first_y - ray.origin_first.y) * ray.inverse.y;
     precise vec4 first_z = (node.first_z - ray.origin_first.z) * ray.inverse.z;

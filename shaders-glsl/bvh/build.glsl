@@ -33,7 +33,7 @@ void bvh_include_record(uint place, inout vec3 lower, inout vec3 upper) {
 }
 
 uint bvh_code(uint place) {
-    return bvh_scratch(build.structure, bvh_keys(build.structure, 0u) + 2u * place);
+    return bvh_scratch(build.structure, bvh_sort_keys(build.structure, 0u) + 2u * place);
 }
 
 #endif

@@ -19,8 +19,8 @@ void main() {
         uint start = sort_count_word(sort_digit(place), chunk);
         uint target = bvh_scratch(build.structure, start);
         bvh_set_scratch(build.structure, start, target + 1u);
-        uint source = bvh_keys(build.structure, from) + 2u * place;
-        uint destination = bvh_keys(build.structure, 1u - from) + 2u * target;
+        uint source = bvh_sort_keys(build.structure, from) + 2u * place;
+        uint destination = bvh_sort_keys(build.structure, 1u - from) + 2u * target;
         bvh_set_scratch(build.structure, destination, bvh_scratch(build.structure, source));
         bvh_set_scratch(build.structure, destination + 1u, bvh_scratch(build.structure, source + 1u));
     }

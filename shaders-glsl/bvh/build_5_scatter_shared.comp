@@ -42,8 +42,8 @@ void main() {
         before += bitCount(keys_with[WORDS * digit + word]);
     }
     uint target = bvh_scratch(build.structure, sort_count_word(digit, chunk)) + before;
-    uint source = bvh_keys(build.structure, build.step & 1u) + 2u * place;
-    uint destination = bvh_keys(build.structure, 1u - (build.step & 1u)) + 2u * target;
+    uint source = bvh_sort_keys(build.structure, build.step & 1u) + 2u * place;
+    uint destination = bvh_sort_keys(build.structure, 1u - (build.step & 1u)) + 2u * target;
     bvh_set_scratch(build.structure, destination, bvh_scratch(build.structure, source));
     bvh_set_scratch(build.structure, destination + 1u, bvh_scratch(build.structure, source + 1u));
 }

@@ -1,5 +1,5 @@
 // Makes all inner nodes of a tree over sorted Morton codes: children, parents and boxes.
-// Reads: records, scratch (keys, unions). Writes: nodes.
+// Reads: header, records, scratch (keys, unions). Writes: nodes.
 // One invocation per inner node.
 // Source: Karras 2012, figure 4.
 #version 460

@@ -14,7 +14,7 @@
 // nodes of four. The words take the place of the second buffer of keys; sizes and chains take that of the
 // first.
 uint number_word(uint node) {
-    return bvh_keys(build.structure, 1u) + node;
+    return bvh_sort_keys(build.structure, 1u) + node;
 }
 
 // Returns the word that says which nodes a node of two opens if it becomes a node of four. Bits 0 and 1 are

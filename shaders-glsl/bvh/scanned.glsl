@@ -8,7 +8,7 @@
 #include "bvh/scratch.glsl"
 
 uint scan_word(BvhRef s, uint step) {
-    return step < BVH_DIGITS ? bvh_counts(s) : bvh_keys(s, 1u);
+    return step < BVH_DIGITS ? bvh_counts(s) : bvh_sort_keys(s, 1u);
 }
 
 uint scan_count(BvhRef s, uint step) {

@@ -11,7 +11,7 @@
 #include "ads/constants.glsl"
 #include "bvh/accessors.glsl"
 
-uint bvh_keys(BvhRef s, uint buffer_index) {
+uint bvh_sort_keys(BvhRef s, uint buffer_index) {
     return 2u * buffer_index * BVH_HEADER(s).triangle_count;
 }
 

@@ -12,7 +12,7 @@ uint sort_chunk() {
 
 // Returns the digit, at this step, of the key at a place of the buffer that is sorted from.
 uint sort_digit(uint place) {
-    uint code = bvh_scratch(build.structure, bvh_keys(build.structure, build.step & 1u) + 2u * place);
+    uint code = bvh_scratch(build.structure, bvh_sort_keys(build.structure, build.step & 1u) + 2u * place);
     return (code >> (BVH_DIGIT_BITS * build.step)) & (BVH_DIGIT_VALUES - 1u);
 }
 

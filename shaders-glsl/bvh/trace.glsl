@@ -107,7 +107,7 @@ uint bvh_trace(BvhRef s, Ray ray, inout TraceState state, bool any_hit) {
             BvhChildren node = bvh_children(s, min(child, node_capacity - 1u), slabs.descends);
             nodes += 1u;
             bvec4 entered;
-            uvec4 keys = bvh_keys(slabs, node, best.t, entered);
+            uvec4 keys = bvh_child_keys(slabs, node, best.t, entered);
             entered = mix(bvec4(false), entered, bvec4(exists));
             if (left < BVH_CHILDREN) {
                 within = bvh_parent(s, child);

@@ -14,10 +14,11 @@
 struct CubeMapHeader {
     uint resolution;          // texels along a side of a face, without its border
     vec3 position;            // metres relative to the frame origin
-    // 1: `position` is the point; 0: the point is the centre of the bounds below,
-    uint is_given;            // or the eye if these are empty
-    // lower corner of all perfectly smooth triangles:
-    uint lower_keys[3];       // integers in the order of the floats
+    // 1: `position` is the point; 0: the point is the centre of the bounds below, or the eye if these are
+    // empty
+    uint is_given;
+    // lower corner of all perfectly smooth triangles: integers in the order of the floats
+    uint lower_keys[3];
     uint upper_keys[3];       // upper corner of the same triangles, in the same form
 };
 

@@ -23,23 +23,23 @@ struct FilmPixel {
 // Counts of samples and light that the film lacks, and of samples that sent a ray on. Shared, 24 bytes.
 struct FilmFaults {
     uint non_finite;      // samples with a channel that is not finite, which are not added to their pixel
-    // paths with surfaces left to pass after the last round recorded,
-    uint unended;         // which are not added to their pixel yet
-    // rays that would have passed more than PATH_LAYER_LIMIT surfaces;
-    uint cut;             // what lies beyond is not seen
-    // Whitted's integrator: samples whose first surface sent a mirrored or refracted
-    uint selected_low;    // ray on, low word
+    // paths with surfaces left to pass after the last round recorded, which are not added to their pixel yet
+    uint unended;
+    // rays that would have passed more than PATH_LAYER_LIMIT surfaces; what lies beyond is not seen
+    uint cut;
+    // Whitted's integrator: samples whose first surface sent a mirrored or refracted ray on, low word
+    uint selected_low;
     uint selected_high;   // high word of the same number
-    // surfaces with more than PHOTON_GATHER_LIMIT photons around them,
-    uint crowded;         // which lack the light of all photons
+    // surfaces with more than PHOTON_GATHER_LIMIT photons around them, which lack the light of all photons
+    uint crowded;
 };
 
 // State of a path while its shadow ray is traced. Shared, 72 bytes.
 struct PathWaiting {
     Ray next_ray;         // of the path, to be traced when the shadow ray has ended
     vec3 target;          // end of a shadow ray of finite length
-    // light that arrives unless a surface stops it, W/(sr m^2);
-    vec3 pending;         // 0: the ray in the queue is the path's own
+    // light that arrives unless a surface stops it, W/(sr m^2); 0: the ray in the queue is the path's own
+    vec3 pending;
 };
 
 // Hit of the ray through a pixel's centre. Shared, 20 bytes.

@@ -15,8 +15,8 @@
 
 // Counts of triangles drawn since the counts were cleared. Shared, 4 bytes.
 struct VisibilityCounts {
-    // triangles drawn over all pixels of a wave,
-    uint covering;        // because they reach behind the eye within the view
+    // triangles drawn over all pixels of a wave, because they reach behind the eye within the view
+    uint covering;
 };
 
 layout(set = INTEGRATOR_SET, binding = 0, scalar) buffer VisibilityCountsBuffer { VisibilityCounts visibility_counts; };

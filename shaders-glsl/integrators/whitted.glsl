@@ -21,8 +21,8 @@
 // Rays that one step asks for. A ray with t_max < 0 is not traced.
 struct WhittedStep {
     WhittedRay next;          // traced next, for its closest hit; other rays of the tree wait
-    // any hit occludes; if surfaces let light through,
-    Ray shadow_ray;           // the closest hit is found instead
+    // any hit occludes; if surfaces let light through, the closest hit is found instead
+    Ray shadow_ray;
     vec3 pending;             // radiance of the unblocked shadow ray times throughput, W/(sr m^2)
     vec3 target;              // end of a shadow ray of finite length
     uint cut;                 // 1 if a ray would have passed more than PATH_LAYER_LIMIT surfaces, else 0

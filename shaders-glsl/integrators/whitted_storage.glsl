@@ -12,8 +12,8 @@ struct WhittedNode {
     vec3 throughput;          // share of the light found next that reaches the camera
     uint medium;              // material in whose volume the ray is, or MATERIAL_NONE
     uint depth;               // reflections and refractions that led to the ray
-    // identifies the refractions and passed surfaces that led to the ray;
-    uint branch;              // 0: there are none
+    // identifies the refractions and passed surfaces that led to the ray; 0: there are none
+    uint branch;
     uint passed;              // surfaces that the ray, or its shadow ray, has passed in a straight line
 };
 
@@ -29,8 +29,8 @@ struct WhittedState {
     uint waiting;             // rays of the slot that wait, or WHITTED_ENDED
     vec3 pending;             // light that arrives unless a surface stops the shadow ray, W/(sr m^2)
     vec3 target;              // end of a shadow ray of finite length
-    // of the ray in the queue; while that is a shadow ray,
-    WhittedNode node;         // of the ray that hit the shadow ray's surface
+    // of the ray in the queue; while that is a shadow ray, of the ray that hit the shadow ray's surface
+    WhittedNode node;
 };
 
 layout(set = INTEGRATOR_SET, binding = 9, scalar) buffer WhittedStateBuffer { WhittedState whitted_states[]; };

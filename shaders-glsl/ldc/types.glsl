@@ -54,8 +54,8 @@ struct LdcHeader {
     vec3 origin;          // metres relative to the frame origin: lower corner of the cube
     uint long_capacity;   // long lists that the scratch holds
     vec3 lower;           // metres relative to the frame origin: lower corner of the geometry with its margin
-    // fragments of the cell with the most;
-    uint layer_demand;    // this and the other counts of layers with LDC_BUILD_PEEL only
+    // fragments of the cell with the most; this and the other counts of layers with LDC_BUILD_PEEL only
+    uint layer_demand;
     vec3 upper;           // metres relative to the frame origin: upper corner of the geometry with its margin
     float slices_per_metre; // slices of depth per metre, LDC_OCCUPANCY_SLICES only
     uvec2 lists_address;  // device address of the lists; zero with descriptors, as all addresses below
@@ -68,8 +68,8 @@ struct LdcHeader {
     uint layer_capacity;  // layers that are peeled
     uint layer_limit;     // layers that may be peeled
     uint beyond;          // fragments in layers beyond `layer_limit`
-    // triangles over many cells of their view,
-    uint large_demand;           // also those beyond the capacity; binning only
+    // triangles over many cells of their view, also those beyond the capacity; binning only
+    uint large_demand;
     uint large_capacity;   // triangles that the large-triangle queue holds
     uint groups[3];       // workgroups for these triangles
     // first column of the linear map from where a part is posed to where its cube was built; LDC_RIGID only
@@ -83,8 +83,8 @@ struct LdcBlock {
     bool empty;
     float z_min;          // smallest and largest depth, metres
     float z_max;
-    // one bit per slice of depth, set if the slice holds something;
-    uvec2 slices;         // all bits are set if blocks have no slices
+    // one bit per slice of depth, set if the slice holds something; all bits are set if blocks have no slices
+    uvec2 slices;
 };
 
 #endif

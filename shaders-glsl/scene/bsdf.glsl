@@ -11,8 +11,8 @@
 
 // Scattering towards one direction.
 struct BsdfValue {
-    // 1/sr, with the cosine:
-    vec3 value;          // the families may lie around different normals, so their cosines differ
+    // 1/sr, with the cosine: the families may lie around different normals, so their cosines differ
+    vec3 value;
     float pdf;           // 1/sr: density with which bsdf_sample chooses this direction
 };
 

@@ -18,16 +18,16 @@ struct BsdfTerms {
     vec3 base_color;
     float metallic;
     float transmission;
-    // alpha of the facets, 0 for perfect mirrors;
-    float alpha;         // root mean square of both `alphas` if these differ
+    // alpha of the facets, 0 for perfect mirrors; root mean square of both `alphas` if these differ
+    float alpha;
     vec2 alphas;         // alpha along x and along y of the frame
     bool anisotropic;    // true if the two alphas differ
     bool ward;           // true if the surface reflects by Ward's lobe
     float eta;           // index on the side of o over the index on the other side; 1: light goes straight on
     // true if facets are perfect mirrors
     bool mirror;
-    // true for a smooth thin wall:
-    bool pane;           // the light that it lets through is followed apart, and is in no lobe
+    // true for a smooth thin wall: the light that it lets through is followed apart, and is in no lobe
+    bool pane;
     mat3 frame;          // world from local; local z is the normal of the facets
     vec3 base;           // shading normal, local, around which the cosine family lies
     vec3 o;              // unit direction from which the surface is seen, local

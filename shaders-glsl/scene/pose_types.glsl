@@ -23,8 +23,9 @@ struct PoseDraw {
     uint rest_tangents;         // word of the rest tangents among these, 4 words a vertex: xyz, w = +1 or -1
     uint normals;               // word of the normals in the posed attributes, 3 words a vertex
     uint tangents;              // word of the tangents in the posed attributes, 4 words a vertex
-    // word in the skins: for each vertex its joints, then as many weights;
-    uint skin;                  // ATTRIBUTE_NONE: the draw has no joints
+    // word in the skins: for each vertex its joints, then as many weights; ATTRIBUTE_NONE: the draw has no
+    // joints
+    uint skin;
     uint joints_per_vertex;     // joints of a vertex, and weights
     uint first_joint;           // number of the skin's joint 0 in the joint matrices
 };
@@ -39,10 +40,11 @@ struct PoseMatrix {
 
 // The placement of a draw in this frame. Shared, 96 bytes.
 struct PosePlacement {
-    // map from the pivot to the frame origin;
-    PoseMatrix place;           // with joints these turn the draw, and this is the translation alone
-    // first column of the map of normals, scaled so that its largest element
-    vec3 normal_x;              // is about 1; unused with joints
+    // map from the pivot to the frame origin; with joints these turn the draw, and this is the translation
+    // alone
+    PoseMatrix place;
+    // first column of the map of normals, scaled so that its largest element is about 1; unused with joints
+    vec3 normal_x;
     vec3 normal_y;              // second column of that map
     vec3 normal_z;              // third column of that map
     uint flags;                 // DRAW_MIRRORED if the map mirrors
@@ -52,12 +54,12 @@ struct PosePlacement {
 
 // A morph target with its weight. Words are in the displacements. Shared, 16 bytes.
 struct PoseTarget {
-    // word of the displacements of positions, 3 words a vertex, metres;
-    uint positions;             // or ATTRIBUTE_NONE
-    // word of the displacements of normals, 3 words a vertex;
-    uint normals;               // or ATTRIBUTE_NONE
-    // word of the displacements of tangents, 3 words a vertex;
-    uint tangents;              // or ATTRIBUTE_NONE
+    // word of the displacements of positions, 3 words a vertex, metres; or ATTRIBUTE_NONE
+    uint positions;
+    // word of the displacements of normals, 3 words a vertex; or ATTRIBUTE_NONE
+    uint normals;
+    // word of the displacements of tangents, 3 words a vertex; or ATTRIBUTE_NONE
+    uint tangents;
     float weight;               // not 0
 };
 

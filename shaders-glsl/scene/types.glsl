@@ -83,8 +83,9 @@ struct Material {
     float normal_scale;         // scale of the normal map's x and y
     float alpha_cutoff;         // least alpha of points that are there; with MATERIAL_ALPHA_MASK only
     uint flags;                 // MATERIAL_*
-    // word, in the vertex attributes, of the table of what rough glass loses;
-    uint albedo;                // ATTRIBUTE_NONE: there is no table
+    // word, in the vertex attributes, of the table of what rough glass loses; ATTRIBUTE_NONE: there is no
+    // table
+    uint albedo;
     TextureRef base_color_texture; // multiplies base_color; with TEXTURE_SRGB
     TextureRef metallic_roughness_texture; // green multiplies roughness, blue multiplies metallic; linear
     TextureRef normal_texture;  // normal map; linear
@@ -117,15 +118,15 @@ struct Light {
     vec3 intensity;             // W/sr; directional: irradiance, W/m^2
     float cone_scale;           // spot: factor of the cosine; docs/shading.md, "Lights"
     float cone_offset;          // spot: summand behind the factor
-    // share of the power of all lights without extent up to and including this one;
-    float cumulative;           // the last share is 1
+    // share of the power of all lights without extent up to and including this one; the last share is 1
+    float cumulative;
 };
 
 // A triangle of a draw that emits. Shared, 8 bytes.
 struct EmissiveTriangle {
     uint primitive;             // global triangle id
-    // share of the power of all emissive triangles up to and including this one;
-    float cumulative;           // the last share is 1
+    // share of the power of all emissive triangles up to and including this one; the last share is 1
+    float cumulative;
 };
 
 // State of a path between two dispatches. Shared, 56 bytes.
@@ -154,10 +155,10 @@ struct BsdfSample {
 struct LightSample {
     vec3 direction;             // unit, from the surface to the light
     float distance;             // metres; +infinity for the environment and directional lights
-    // radiance that arrives, W/(sr m^2);
-    vec3 radiance;              // for a delta the irradiance across the direction, W/m^2
-    // 1/sr, with the choice of the light;
-    float pdf;                  // for a delta the probability of the choice
+    // radiance that arrives, W/(sr m^2); for a delta the irradiance across the direction, W/m^2
+    vec3 radiance;
+    // 1/sr, with the choice of the light; for a delta the probability of the choice
+    float pdf;
     vec3 target;                // end of the shadow segment, moved off the light by the bound of its error
     uint flags;                 // SAMPLE_*; 0: nothing arrives
     uint ray_flags;             // RAY_* bits of the shadow ray that say to which light it leads
@@ -165,8 +166,8 @@ struct LightSample {
 
 // Rays that one step of a path asks for. A ray with t_max < 0 is not traced.
 struct PathStep {
-    // any hit occludes; if surfaces let light through,
-    Ray shadow_ray;             // the closest hit is found instead
+    // any hit occludes; if surfaces let light through, the closest hit is found instead
+    Ray shadow_ray;
     Ray next_ray;               // the closest hit is found
     vec3 pending;               // radiance of the unblocked shadow ray times throughput, W/(sr m^2)
     vec3 target;                // end of a shadow ray of finite length

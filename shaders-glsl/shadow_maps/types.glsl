@@ -10,8 +10,8 @@ struct ShadowMapsHeader {
     uint resolution;      // texels along a side of a view
     uint light_count;     // lights without extent
     uint view_count;      // views of all lights and points
-    // share, added to each texel, of the depth that a plane gains
-    float bias;           // from the texel's centre to its corners
+    // share, added to each texel, of the depth that a plane gains from the texel's centre to its corners
+    float bias;
     uint emitter_count;   // emitting triangles
     uint point_count;     // points on each emitting triangle; 0: these have no maps
     uint first_point;     // first view of the first point; each point has SHADOW_MAPS_CUBE_VIEWS views
@@ -27,16 +27,18 @@ struct ShadowMapsLight {
 // in the view. On the map it is at (x, y) in a parallel view, at (x/z, y/z) in a perspective one; the map
 // spans -1 to 1. Depth is z, metres. Shared, 60 bytes.
 struct ShadowMapsView {
-    // metres relative to the frame origin: position of the light;
-    vec3 origin;          // in a parallel view the middle of its front side
-    // axis of the map's columns, divided by half the map's width;
-    vec3 right;           // 1/metre in a parallel view
+    // metres relative to the frame origin: position of the light; in a parallel view the middle of its front
+    // side
+    vec3 origin;
+    // axis of the map's columns, divided by half the map's width; 1/metre in a parallel view
+    vec3 right;
     vec3 up;              // axis of the map's rows, in the same form
     vec3 forward;         // axis of depth, unit
     uint parallel;        // 1: the view is parallel, of a light far away
     float rounding;       // metres: largest difference between computed and true depths
-    // triangle on which the view's point lies, which occludes nothing;
-    uint excluded;        // PRIMITIVE_NONE: the view is of a light without extent
+    // triangle on which the view's point lies, which occludes nothing; PRIMITIVE_NONE: the view is of a light
+    // without extent
+    uint excluded;
 };
 
 #endif

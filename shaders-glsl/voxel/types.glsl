@@ -29,8 +29,8 @@ layout(constant_id = 84) const uint VOXEL_TRAVERSAL = VOXEL_TRAVERSAL_DDA;
 // State and sizes of voxels with axis A-buffers. Shared, 164 bytes.
 struct VoxelHeader {
     uint status;          // STATUS_*; without STATUS_COMPLETE traces answer "not ready"
-    // fragments that the build found, or pages that it began,
-    uint demand;          // also those beyond the capacity
+    // fragments that the build found, or pages that it began, also those beyond the capacity
+    uint demand;
     uint capacity;        // fragments or pages that the pool holds
     uint fragments;       // fragments that the build found
     uint unsorted;        // lists too long for the sort passes
@@ -52,14 +52,14 @@ struct VoxelHeader {
     uvec2 lists_address;  // device address of the lists
     uvec2 fragments_address; // device address of the fragments
     uvec2 scratch_address; // device address of the scratch: sums of the scan, and long lists behind them
-    // triangles over many cells of a view,
-    uint large_demand;           // also those beyond the capacity; binning only
+    // triangles over many cells of a view, also those beyond the capacity; binning only
+    uint large_demand;
     uint large_capacity;   // triangles that the large-triangle queue holds
     uint groups[3];       // workgroups for these triangles
     uvec2 nodes_address;  // device address of the octree's nodes
     uvec2 octants_address; // device address of the octree's counts, used by its build
-    // octree only, as all members below: nodes that the build found,
-    uint node_demand;     // also those beyond the capacity
+    // octree only, as all members below: nodes that the build found, also those beyond the capacity
+    uint node_demand;
     uint node_capacity;   // nodes that the pool holds
     uint levels;          // levels of the octree: 2^levels voxels along a side, at least those of the grid
 };
