@@ -43,6 +43,26 @@ pub(crate) struct PipelineInner {
     pub(crate) view_mask: u32,
 }
 
+impl PipelineInner {
+    /// Returns how many sets stay bound, from set 0 up, if another pipeline is bound after this one.
+    pub(crate) fn sets_kept_by(&self, next: &Self) -> usize {
+        let constants =
+            |pipeline: &Self| (pipeline.bind_point, pipeline.push_constant_bytes, pipeline.stages);
+        if constants(self) != constants(next) {
+            return 0;
+        }
+        let of = |pipeline: &Self| {
+            pipeline
+                .sets
+                .iter()
+                .map(SetLayout::storage_buffers)
+                .zip(pipeline.used.iter().copied())
+                .collect::<Vec<_>>()
+        };
+        of(self).into_iter().zip(of(next)).take_while(|(before, after)| before == after).count()
+    }
+}
+
 impl std::fmt::Debug for PipelineInner {
     fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         formatter.write_str(&self.name)

@@ -90,8 +90,7 @@ impl Recorder<'_> {
             return self.fail(GpuError::InvalidUse { name: pipeline.name.clone(), reason });
         }
         self.keep(pipeline.clone());
-        self.bound.pipeline = Some(pipeline.clone());
-        self.bound.constants.clear();
+        self.bound.replace(pipeline);
         // SAFETY: the command buffer is being recorded; the pipeline is of this device.
         unsafe { self.raw_device().cmd_bind_pipeline(self.command, pipeline.bind_point, pipeline.raw) };
     }

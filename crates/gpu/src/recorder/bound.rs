@@ -15,6 +15,15 @@ pub(super) struct Bound {
 }
 
 impl Bound {
+    /// Binds a pipeline. Of the sets that are bound those stay that Vulkan keeps: they precede the first set
+    /// whose layout differs from that of the pipeline before, and the push constants are alike.
+    pub(super) fn replace(&mut self, pipeline: &Arc<PipelineInner>) {
+        let kept = self.pipeline.as_ref().map_or(0, |before| before.sets_kept_by(pipeline));
+        self.sets.truncate(kept);
+        self.constants.clear();
+        self.pipeline = Some(pipeline.clone());
+    }
+
     /// Returns what the bound pipeline uses and lacks, in words.
     pub(super) fn missing(&self) -> Option<String> {
         let pipeline = self.pipeline.as_ref()?;
@@ -27,7 +36,7 @@ impl Bound {
         if let Some((set, _)) = used.into_iter().find(|(set, (_, layout))| !is_bound(*set, layout)) {
             return Some(format!("`{}` uses set {set}, which is not bound", pipeline.name));
         }
-        let lacks_constants = pipeline.push_constant_bytes > 0 && self.constants.is_empty();
+        let lacks_constants = self.constants.len() < pipeline.push_constant_bytes as usize;
         lacks_constants.then(|| format!("`{}` has push constants, which were not set", pipeline.name))
     }
 }

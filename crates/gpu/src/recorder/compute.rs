@@ -18,8 +18,7 @@ impl Recorder<'_> {
             }
         }
         // SAFETY: the command buffer is being recorded, outside of rendering, with a compute pipeline and
-        // within the limits; the caller has bound the resources that the shader reads (the validation layer
-        // checks it).
+        // within the limits. The sets that the pipeline uses and its push constants were found bound.
         unsafe { self.raw_device().cmd_dispatch(self.command, groups[0], groups[1], groups[2]) };
         self.count(|pass| {
             pass.dispatches += 1;

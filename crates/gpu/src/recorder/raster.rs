@@ -69,7 +69,7 @@ impl Recorder<'_> {
             return;
         }
         // SAFETY: the command buffer is being recorded, within rendering, with a raster pipeline of the same
-        // views; the caller has bound the resources that the shaders read (the validation layer checks it).
+        // views. The sets that the pipeline uses and its push constants were found bound.
         unsafe { self.raw_device().cmd_draw(self.command, vertices, instances, 0, first_instance) };
         self.count(|pass| {
             pass.draws += 1;

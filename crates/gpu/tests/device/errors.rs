@@ -31,9 +31,27 @@ fn the_order_of_commands_is_checked() {
         recorder.push_constants(bytes_of(&[64, 2]));
         recorder.dispatch([1, 1, 1]);
     });
-    mistake(&device, "`scale` has push constants, which were not set", |recorder| {
-        recorder.bind_compute(&scale.pipeline);
-        recorder.bind_sets(0, &[&scale.set]);
+    for constants in [&[][..], &[64]] {
+        mistake(&device, "`scale` has push constants, which were not set", |recorder| {
+            recorder.bind_compute(&scale.pipeline);
+            recorder.bind_sets(0, &[&scale.set]);
+            recorder.push_constants(bytes_of(constants));
+            recorder.dispatch([1, 1, 1]);
+        });
+    }
+    // Vulkan drops sets where push constants or layouts before them differ.
+    let wider = ComputePipelineDesc {
+        name: "wider",
+        module: &module(shaders::SCALE),
+        sets: &[&scale.layout],
+        push_constant_bytes: 16,
+        constants: &[],
+    };
+    let wider = device.create_compute_pipeline(&wider).expect("pipeline");
+    mistake(&device, "`wider` uses set 0, which is not bound", |recorder| {
+        scale.bind(recorder, 1);
+        recorder.bind_compute(&wider);
+        recorder.push_constants(bytes_of(&[64, 1, 0, 0]));
         recorder.dispatch([1, 1, 1]);
     });
     mistake(&device, "`open`: the pass was not ended", |recorder| recorder.begin_pass(Stage::Build, "open"));
@@ -51,7 +69,7 @@ fn the_order_of_commands_is_checked() {
         recorder.draw(3, 1, 0);
     });
     assert_eq!(scale.values(&device), (0..64).collect::<Vec<u32>>(), "nothing of the above was executed");
-    drop(scale);
+    drop((scale, wider));
     finish(device);
 }
 
