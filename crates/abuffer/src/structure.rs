@@ -7,7 +7,7 @@ use rasray_ads::{
     AdsError, Dependencies, GeometryExtent, ListCounts, RecordLayout, SceneBinding, Sizes, StructureKind,
     StructureReport, Viewpoint,
 };
-use rasray_gpu::{BindingSet, Device, Recorder, Requirements};
+use rasray_gpu::{BindingSet, Recorder, Requirements};
 use rasray_shaders_glsl::constants::abuffer::ABUFFER_NEAR_BOX;
 use rasray_shaders_glsl::constants::ads::{NEAR_REGION, TRIANGLE_ROUNDING};
 
@@ -136,7 +136,7 @@ impl Design for Build {
         config.views.has_camera()
     }
 
-    fn trace_variant(_device: &Device, config: &Config) -> String {
+    fn trace_variant(config: &Config) -> String {
         config.trace_variant()
     }
 

@@ -3,39 +3,41 @@
 //! `rasray-bvh` implement it.
 //!
 //! - [`Structure`] is the contract: it builds itself from a [`Geometry`], traces rays through itself, and
-//!   finds the surfaces of hits. It knows nothing of integrators.
-//! - [`Geometry`] binds the triangles in the buffers of a host ([`GeometryDesc`]); [`GeometryParts`] and
-//!   [`Combined`] divide triangles of which only some move.
-//! - [`RayQueue`] holds rays, hits and surfaces on the device; [`Trace`] states the rays of a queue to trace,
-//!   and the kind of answer.
+//!   finds the surfaces of hits.
+//! - [`Geometry`] binds the triangles in the buffers of a host ([`GeometryDesc`]). If only some triangles
+//!   move, [`GeometryParts`] and [`Combined`] divide them.
+//! - [`RayQueue`] holds rays, hits and surfaces on the device. [`Trace`] says which of its rays to trace, and
+//!   for which kind of answer.
 //! - [`Occluder`] answers shadow rays in place of a structure.
-//! - [`BruteForce`] tests every triangle against every ray: all other structures are compared with it.
+//! - [`BruteForce`] tests every triangle against every ray. All other structures are compared with it.
 //! - [`Counters`] and [`TraceStep`] measure and log the work of rays; [`Inspect`] reads pools for tests and
 //!   tools.
-//! - [`kit`] contains the parts that structures are made of. Hosts do not need it.
+//! - [`kit`] has the parts that structures are made of; hosts do not need it.
 //!
 //! # Building
-//! The exact demand for memory is known only after the GPU ran, so the caller resumes a build:
+//! The exact demand for memory is known only after the GPU ran, so the caller may have to repeat a build:
 //!
 //! 1. Prepare a build ([`Structure::prepare_build`]), record it ([`Structure::record_build`]), submit it, and
 //!    wait.
 //! 2. Read the [`BuildStatus`] ([`Structure::status`]), and check it ([`Structure::check`]).
-//! 3. On [`Check::Grow`] resize and begin again; [`Check::Complete`] ends the build.
+//! 3. On [`Check::Grow`] resize and begin again. [`Check::Complete`] ends the build.
 //!
 //! Until a build of the present triangles is complete, traces answer "not ready" and count these answers.
-//! They never give a partial answer, nor an answer for triangles that the structure had before.
+//! They never answer for some of the triangles only, nor for earlier triangles.
 //!
 //! # Memory and waits
-//! Functions that record never submit, wait or allocate. Constructors, [`Structure::resize`],
-//! [`Structure::set_slots`], and [`Structure::set_geometry`] with more triangles than before allocate. These
-//! submit and wait: [`Structure::prepare_build`] of a structure that is built on the host; a [`RayQueue`]
-//! that is made on a device with a queue, through which it is cleared; and functions that read pools, or
-//! write them for tests and reports.
+//! Functions that record never submit, wait or allocate. These allocate: constructors,
+//! [`Structure::resize`], [`Structure::set_slots`], and [`Structure::set_geometry`] with more triangles than
+//! before. These submit and wait:
+//!
+//! - [`Structure::prepare_build`] of a structure that is built on the host
+//! - constructors of a [`RayQueue`] on a device with a queue, to clear it
+//! - functions that read pools, or write them for tests and reports
 //!
 //! # Synchronisation
 //! [`Structure::record_build`], [`Structure::record_trace`] and [`Structure::record_surfaces`] end with
-//! a barrier that makes their results visible to compute shaders and transfers recorded after them.
-//! Data that they read must be visible to compute, vertex and fragment shaders before.
+//! a barrier that makes their results visible to compute shaders and transfers recorded after them. The
+//! caller's barriers make the data that they read visible to compute, vertex and fragment shaders.
 
 mod brute_force;
 mod combined;

@@ -22,8 +22,8 @@ pub struct StructureReport {
     pub diagnostic_bytes: u64,
     /// Number of fragments or entries stored; absent if the structure stores none.
     pub stored: Option<u64>,
-    /// Number of triangles with an area that cover no cell's centre in any view, so that rays pass through
-    /// them; absent if the structure does not count them.
+    /// Number of triangles with an area that rays pass through, because they cover no cell's centre in any
+    /// view; absent if the structure does not count them.
     pub lost: Option<u64>,
 }
 
@@ -39,8 +39,8 @@ impl StructureReport {
     }
 }
 
-/// Access for an embedder's shader to the structure's GLSL functions (`x_trace_closest`, `x_trace_occluded`,
-/// `x_surface_at` of the structure's folder). The functions also need the set of the structure's geometry.
+/// Access for an embedder's shader to the GLSL functions in the structure's folder (`x_trace_closest`,
+/// `x_trace_occluded`, `x_surface_at`, where x is the structure's prefix). They also need the geometry's set.
 #[derive(Clone, Debug)]
 pub struct InlineTrace<'a> {
     /// Layout of the structure's set, which the shader finds at `STRUCTURE_SET`; empty if shaders use
@@ -60,9 +60,9 @@ pub struct InlineTrace<'a> {
 ///
 /// A structure has one set of pools, so its builds and traces follow each other on the device's queue. It
 /// keeps the outcomes of builds per slot: a host with n frames in flight records the build of frame k for
-/// slot k mod n, and reads the status of a slot after that frame's fence.
+/// slot k mod n, and reads the slot's status after the frame's fence.
 ///
-/// Structures are [`Send`] and [`Sync`]: a host may record on a thread of its own.
+/// Structures are [`Send`] and [`Sync`], so a host may record on a thread of its own.
 pub trait Structure: Send + Sync {
     /// Returns the facts about the structure.
     fn description(&self) -> &Description;
@@ -71,8 +71,8 @@ pub trait Structure: Send + Sync {
     fn sizes(&self) -> &Sizes;
 
     /// Reallocates the pools to `sizes`, which come from planning or from [`Structure::check`]; does nothing
-    /// if the pools have these sizes already. The build is lost. Builds that the device has yet to finish
-    /// keep their statuses ([`BuildStatus::was_complete`]), and the buffers they use live as long as their
+    /// if the pools have these sizes already. A reallocation loses the build. Builds that the device has yet
+    /// to finish keep their statuses ([`BuildStatus::was_complete`]), and their buffers live as long as their
     /// [`rasray_gpu::Recorded`].
     ///
     /// # Errors
@@ -80,7 +80,7 @@ pub trait Structure: Send + Sync {
     /// memory is exhausted.
     fn resize(&mut self, device: &Device, sizes: &Sizes) -> Result<(), AdsError>;
 
-    /// Replaces the triangles; the next build reads the new ones. Until that build is complete traces answer
+    /// Replaces the triangles, which the next build reads. Until that build is complete, traces answer
     /// *not ready*, unless these are the triangles of the last build.
     ///
     /// # Errors
@@ -88,32 +88,31 @@ pub trait Structure: Send + Sync {
     /// ([`AdsError::InParts`]).
     fn set_geometry(&mut self, device: &Device, geometry: &Geometry) -> Result<(), AdsError>;
 
-    /// Replaces the scene by that of other triangles ([`Structure::set_geometry`]); its surfaces and alpha
-    /// masks are read from the next recording on. Pipelines are kept: the new scene must have as many buffers
-    /// as the first scene and the same specialisation constants, and it must have alpha masks if and only if
-    /// the first scene has. If a build reads the scene, traces answer *not ready* until the next build is
-    /// complete. Nothing changes after an error.
+    /// Replaces the scene by that of other triangles ([`Structure::set_geometry`]). Its surfaces and alpha
+    /// masks are read from the next recording on. Pipelines are kept, so the new scene must be like the first
+    /// in its number of buffers, its specialisation constants, and whether it has alpha masks. If builds read
+    /// the scene, traces answer *not ready* until the next build is complete. An error changes nothing.
     ///
     /// # Errors
     /// [`AdsError::OtherScene`], or [`AdsError::NoScene`] where the structure was made without one.
     fn set_scene(&mut self, scene: &SceneBinding) -> Result<(), AdsError>;
 
-    /// Chooses how much of their work rays count, from the next recording on. The build is kept. Making the
-    /// kernel takes as long as for a new structure, unless
+    /// Chooses how much of their work rays count, from the next recording on. The build is kept. The kernel
+    /// is made anew, which takes as long as for a new structure, unless
     /// [`Device::keep_pipelines`](rasray_gpu::Device::keep_pipelines) keeps it.
     ///
     /// # Errors
-    /// The device refuses the pipeline. Earlier parts of a structure may already count differently then.
+    /// The device refuses the pipeline. Earlier parts of a structure may then already count differently.
     fn set_counters(&mut self, device: &Device, counters: Counters) -> Result<(), AdsError>;
 
-    /// Sets the number of builds whose outcomes are kept separately from now on, at least 1; the initial
-    /// number is 1. One per frame in flight is needed. Outcomes of earlier builds are lost; the pools stay.
+    /// Sets the number of builds whose outcomes are kept, which is 1 at first: at least 1, and one per frame
+    /// in flight. Outcomes of earlier builds are lost, but the pools stay.
     ///
     /// # Errors
     /// Out of memory; nothing changes then.
     fn set_slots(&mut self, device: &Device, slots: u32) -> Result<(), AdsError>;
 
-    /// Does the host's part of the next build, of the geometry as it is now; must be called before every
+    /// Does the host's part of the next build, of the geometry as it is now. Call it before every
     /// [`Structure::record_build`]. It may submit and wait.
     ///
     /// # Errors
@@ -122,14 +121,14 @@ pub trait Structure: Send + Sync {
         Ok(())
     }
 
-    /// Returns true if a build for `built` must be repeated for `wanted`, with the same triangles: the
-    /// dependencies differ, unless the structure knows that the difference does not matter.
+    /// Returns true if a build for `built` must be repeated for `wanted`, with the same triangles, because
+    /// the dependencies differ in a way that matters to the structure.
     fn is_stale(&self, built: Viewpoint, wanted: Viewpoint) -> bool {
         self.description().depends_on.are_stale(built, wanted)
     }
 
-    /// Records a build for a viewpoint, whose status is that of `slot` once the device has finished.
-    /// Structures without views ignore the viewpoint.
+    /// Records a build for a viewpoint. Once the device has finished, `slot` has its status. Structures
+    /// without views ignore the viewpoint.
     ///
     /// # Errors
     /// The slot does not exist ([`AdsError::Slot`]), or the structure has a view of the camera and the
@@ -142,17 +141,17 @@ pub trait Structure: Send + Sync {
     ) -> Result<(), AdsError>;
 
     /// Reads the outcome of the last build of a slot, after its submission has ended. From then on,
-    /// [`Structure::report`] and [`Structure::rounds`] refer to this build. A slot without a build so far is
-    /// incomplete, and [`Structure::check`] then returns the present sizes. Brute force builds nothing: all
-    /// its slots are complete once one was recorded.
+    /// [`Structure::report`] and [`Structure::rounds`] refer to this build. A slot without a build is
+    /// incomplete, and [`Structure::check`] then returns the present sizes. Brute force builds nothing, so
+    /// all its slots are complete once one was recorded.
     ///
     /// # Errors
     /// The slot does not exist, or host-visible memory could not be read.
     fn status(&self, slot: u32) -> Result<BuildStatus, GpuError>;
 
-    /// Decides whether the build is complete, or returns the sizes that it needs. Pools that grow get
-    /// `headroom` percent more than their demand, as far as indices allow: 0 for a static scene; 50 for a
-    /// sequence of frames, so that the next frame with a slightly larger demand is complete at once.
+    /// Returns that the build is complete, or the sizes that it needs. Pools that grow get `headroom` percent
+    /// more than their demand, as far as indices allow. Use 0 for a static scene, and 50 for a sequence of
+    /// frames, so that a later frame of slightly larger demand is complete at once.
     ///
     /// # Errors
     /// No sizes suffice: [`AdsError::PoolTooLarge`], or [`AdsError::OutsideBounds`].
@@ -172,18 +171,18 @@ pub trait Structure: Send + Sync {
     /// Raises [`Structure::rounds`], for a caller that found unfinished rays and traces again. Each round
     /// costs two dispatches, even if no ray is paused. Returns false if more rounds would not help.
     ///
-    /// It takes a shared reference, because the code that traces has no other. The number of rounds belongs
-    /// to no build and changes no answer; a recording keeps its own number ([`Trace::rounds`]).
+    /// The number of rounds belongs to no build and changes no answer. A recording keeps its own number
+    /// ([`Trace::rounds`]).
     fn allow_more_rounds(&self) -> bool {
         false
     }
 
-    /// Records a trace of rays of `queue`, which leaves their hits in their slots.
+    /// Records a trace of rays of `queue`. It writes each hit to the slot of its ray.
     fn record_trace(&self, recorder: &mut Recorder<'_>, queue: &RayQueue, trace: Trace<'_>);
 
     /// Records the lookup of the surfaces of the hits in the slots of `domain` of `queue`. After a trace
-    /// through the parts of a geometry, `part` selects the hits on one part; parts are numbered in the order
-    /// of the trace. If hits are triangles, any part knows the surfaces of all hits.
+    /// through parts, `part` selects the hits on one of them, numbered in the order of the trace. If hits are
+    /// triangles, any part knows the surfaces of all hits.
     ///
     /// # Errors
     /// [`AdsError::NoScene`]: the structure was made without a scene.
@@ -195,9 +194,9 @@ pub trait Structure: Send + Sync {
         part: TracedPart,
     ) -> Result<(), AdsError>;
 
-    /// Records hits of the slots of `domain` of `queue` in place of a trace, for rays from the eye that the
-    /// structure was built for. A hit is the nearest that the structure's view of the camera holds at the
-    /// ray; it is as coarse as that view, even if traces are exact.
+    /// Records hits of the slots of `domain` of `queue` without a trace, for rays from the eye that the
+    /// structure was built for. A hit is the nearest in the structure's view of the camera at the ray. It is
+    /// as coarse as that view, even if traces are exact.
     ///
     /// # Errors
     /// [`AdsError::NoFirstHits`] if the structure has no such view.

@@ -112,8 +112,7 @@ impl Build {
 impl DevicePipelines {
     fn new(pipelines: &BuildPipelines<'_>, config: &Config) -> Result<Self, AdsError> {
         let compute = |name| pipelines.compute(name);
-        let by_device = if pipelines.is_software() { Chunks::Serial } else { Chunks::Shared };
-        let chunks = config.chunks.unwrap_or(by_device);
+        let chunks = config.chunks.unwrap_or(Chunks::Shared);
         let (counts, scatter) = match chunks {
             Chunks::Serial => ("build_3_counts", "build_5_scatter"),
             Chunks::Shared => ("build_3_counts.shared", "build_5_scatter.shared"),

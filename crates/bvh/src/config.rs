@@ -68,6 +68,8 @@ pub enum Chunks {
     Shared,
 }
 
+words! { Chunks { Serial "serial", Shared "shared" } }
+
 /// Size of the words in which rays read nodes and triangles. The values read do not depend on it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Loads {
@@ -77,6 +79,8 @@ pub enum Loads {
     /// word.
     Bits64,
 }
+
+words! { Loads { Bits32 "32", Bits64 "64" } }
 
 /// Options of a BVH. None of them changes a hit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -135,10 +139,12 @@ impl Config {
         self.leaf.unwrap_or(if self.chooses_leaves() { 4 } else { 1 })
     }
 
-    /// Returns the size of the words in which rays read: the chosen one, or the device's default.
-    pub(crate) fn made_loads(&self, device: &Device) -> Loads {
-        let pays = device.is_software() && device.has(Feature::Int64);
-        self.loads.unwrap_or(if pays { Loads::Bits64 } else { Loads::Bits32 })
+    /// Fills in the device's defaults of chunks and loads.
+    pub(crate) fn complete(&mut self, device: &Device) {
+        let is_software = device.is_software();
+        let loads = if is_software && device.has(Feature::Int64) { Loads::Bits64 } else { Loads::Bits32 };
+        self.loads.get_or_insert(loads);
+        self.chunks.get_or_insert(if is_software { Chunks::Serial } else { Chunks::Shared });
     }
 
     /// Returns true if triangles may share a leaf.
@@ -184,6 +190,10 @@ impl Config {
             Builder::Sah => "host",
             Builder::Lbvh | Builder::Ploc | Builder::Trbvh | Builder::Refit => "device",
         };
-        vec![("builder", builder.to_owned()), ("addressing", self.addressing.name().to_owned())]
+        let mut paths =
+            vec![("builder", builder.to_owned()), ("addressing", self.addressing.name().to_owned())];
+        paths.extend(self.chunks.map(|chunks| ("chunks", chunks.name().to_owned())));
+        paths.extend(self.loads.map(|loads| ("loads", loads.name().to_owned())));
+        paths
     }
 }

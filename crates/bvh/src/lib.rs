@@ -1,8 +1,7 @@
-//! Bounding volume hierarchies: the baseline for structures in image space. Hosts make one from their
-//! triangles and trace it as any [`rasray_ads::Structure`].
+//! Bounding volume hierarchies: the baseline for structures in image space.
 //!
 //! All structures share one triangle test, so hits are identical and only speed differs. All builders make
-//! trees of one format, which one traversal reads.
+//! trees of one format, so one traversal reads them all.
 //!
 //! - [`Bvh`] is the structure; the contract of [`rasray_ads::Structure`] says who waits and when to resize.
 //! - [`Config`] holds its options: [`Builder`], [`Children`] per node, [`Chunks`] and more.

@@ -170,10 +170,14 @@ impl Design for Passes {
         requirements
     }
 
-    fn trace_variant(device: &Device, config: &Config) -> String {
-        match config.made_loads(device) {
-            Loads::Bits32 => String::new(),
-            Loads::Bits64 => ".words64".to_owned(),
+    fn complete(device: &Device, config: &mut Config) {
+        config.complete(device);
+    }
+
+    fn trace_variant(config: &Config) -> String {
+        match config.loads {
+            None | Some(Loads::Bits32) => String::new(),
+            Some(Loads::Bits64) => ".words64".to_owned(),
         }
     }
 

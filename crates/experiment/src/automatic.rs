@@ -18,7 +18,8 @@ const FASTEST: &str = "the fastest exact structure";
 /// builds one.
 const RAYS_PER_TRIANGLE: u64 = 1000;
 
-/// Number of triangles per ray and build above which no tree repays a longer build than that by Morton codes.
+/// Number of triangles per ray and build above which, on all measured scenes and both drivers, the tree by
+/// Morton codes is ahead of the others.
 const TRIANGLES_PER_RAY: u64 = 10;
 
 /// System that is named by the user, or left to the job.
@@ -64,7 +65,7 @@ fn is_fastest(system: &System) -> bool {
 
 impl SystemConfig {
     /// Adapts a structure that the job chose to frames, each of which builds it for at most `rays` rays: the
-    /// quicker a tree is built, the fewer rays there are per triangle. The choice does not depend on the
+    /// fewer rays per triangle, the quicker the build that it takes. The choice does not depend on the
     /// device, so that all shares of a job agree.
     #[must_use]
     pub fn rebuilt_for(mut self, rays: u64, triangles: u64) -> Self {

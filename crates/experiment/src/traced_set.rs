@@ -16,9 +16,9 @@ use crate::passes::{Passes, median, spread};
 use rasray_ray_files::{HitsFile, TrueHit};
 use rasray_report::{PassOf, Run, Times};
 
-/// Time for which traces warm up, per timed repetition: an operating system takes tens of milliseconds to
-/// spread the threads of a software driver over all cores.
-const WARM_UP: Duration = Duration::from_millis(10);
+/// Least time for which traces warm up: an operating system takes tens of milliseconds to spread the threads
+/// of a software driver over all cores.
+const WARM_UP: Duration = Duration::from_millis(50);
 
 /// Largest number of rays that are traced at a time.
 const BATCH: usize = 131_072;
@@ -202,7 +202,7 @@ pub fn trace_in_turns<'a>(
     // The first turn compiles kernels.
     turn(&mut traces, &|traced, outcome| traced.hits = outcome.hits)?;
     let warm = Instant::now();
-    while warm.elapsed() < WARM_UP * repetitions {
+    while warm.elapsed() < WARM_UP {
         turn(&mut traces, &|_, _| ())?;
     }
     for _ in 0..repetitions {

@@ -19,11 +19,11 @@ pub struct FrameInput {
     pub view: View,
     /// Sampling of pixels.
     pub sampling: Sampling,
-    /// The scene; if absent, that of the frame before. Another scene may have other triangles, in any number,
-    /// and other materials, textures and lights, as long as the kernels have code for its features.
+    /// The scene; if absent, that of the frame before. Another scene may have any number of triangles,
+    /// materials, textures and lights, if the kernels have code for its features.
     pub scene: Option<FrameScene>,
-    /// Poses of everything that moves; if absent, those of the last frame of the same scene, and before any
-    /// pose those of the scene's tables.
+    /// Poses of everything that moves; if absent, those of the last frame of the same scene, or, if the scene
+    /// had none, those of its tables.
     pub pose: Option<FramePose>,
     /// Indices of the samples of each pixel.
     pub samples: Samples,
@@ -36,8 +36,8 @@ pub struct FrameInput {
 pub enum FrameResult {
     /// The frame has a picture.
     Picture(Picture),
-    /// The frame has no picture: its build was not complete, or its rays needed more rounds or passed more
-    /// surfaces than were recorded. The next frames have more of each. A frame that continues this one has no
+    /// The frame has no picture: its build was incomplete, or its rays needed more rounds or passed more
+    /// surfaces than were recorded. The next frames record more. A frame that continues this one has no
     /// picture either.
     Nothing {
         /// The pool that the frame's build lacked most; absent if the build is not the cause
@@ -55,7 +55,7 @@ pub struct Picture {
     pub film: FilmCopy,
     /// True if the frame built the structure.
     pub built: bool,
-    /// True if the frame drew shadow maps; always false without shadow maps.
+    /// True if the frame drew shadow maps.
     pub drew_maps: bool,
     /// Counters of the integrator's queues.
     pub counters: Vec<QueueCounters>,
@@ -78,13 +78,12 @@ struct Pending {
 
 /// Renderer of the frames of a scene through one structure and one integrator.
 ///
-/// A frame may bring another scene ([`FrameInput::scene`]): structure, integrator and visibility are kept and
-/// read the new scene from that frame on. Buffers of the earlier scene that frames in flight use live until
-/// those frames have ended.
+/// A frame may bring another scene ([`FrameInput::scene`]). Structure, integrator and visibility are kept
+/// and read the new scene from that frame on. Frames in flight keep the buffers of the earlier scene alive.
 ///
-/// The host's data for a frame is stored in its command buffer, and results that the host reads lie in memory
-/// of the frame's slot: frames in flight share no memory that one of them could find changed. No call waits
-/// except [`FrameRenderer::take`], and [`FrameRenderer::submit`] for structures that are built on the host.
+/// A frame's command buffer holds the host's data, and the memory of its slot holds results for the host. So
+/// no frame in flight can overwrite data that another still reads. Only [`FrameRenderer::take`] waits, and
+/// [`FrameRenderer::submit`] for structures that are built on the host.
 pub struct FrameRenderer {
     device: Device,
     scene: FrameScene,
@@ -97,19 +96,23 @@ pub struct FrameRenderer {
     posed: Option<FramePose>,
     /// Frames in flight, the oldest first.
     pending: VecDeque<Pending>,
-    /// True if the film was valid when the last frame ended, so that another frame may have added to it.
+    /// True if the film was valid when the last frame ended.
     film_is_right: bool,
 }
 
 impl FrameRenderer {
-    /// Makes a renderer of `scene`, moved by `pose`, seen through `structure`, which was made for both and is
-    /// not built. The structure is either one over all triangles, all of which a frame builds if any of them
-    /// moved, or a [`Combined`](rasray_ads::Combined) structure over the parts of [`PosePass::parts`] or
-    /// [`PosePass::objects`], of which a frame builds only those that moved. With `reads_films` each picture
-    /// has its image on the host; without, the image is on the device in the integrator's film.
+    /// Makes a renderer of `scene`, which `pose` moves. Rays are traced through `structure`, which was made
+    /// for both and is not built:
+    ///
+    /// - A structure over all triangles is built in each frame in which any of them moved.
+    /// - Of a [`Combined`](rasray_ads::Combined) structure over the parts of [`PosePass::parts`] or
+    ///   [`PosePass::objects`], a frame builds only the parts that moved.
+    ///
+    /// With `reads_films` each picture has its image on the host. Without, the image stays on the device, in
+    /// the integrator's film.
     ///
     /// # Errors
-    /// Out of memory, the device has no queue, or it cannot time passes as asked.
+    /// Out of memory, the device has no queue, or it cannot time passes.
     pub fn new(
         device: &Device,
         (scene, pose): (GpuScene, Option<PosePass>),
@@ -136,7 +139,7 @@ impl FrameRenderer {
         })
     }
 
-    /// Answers camera rays by drawing, with a [`Visibility`] that was made for the same scene.
+    /// Answers camera rays by drawing, with a [`Visibility`] made for the same scene.
     #[must_use]
     pub fn with_visibility(self, visibility: Visibility) -> Self {
         Self { image: self.image.with_visibility(Some(visibility)), ..self }
@@ -152,13 +155,12 @@ impl FrameRenderer {
         Ok(Self { image: self.image.with_shadow_maps(&self.device, &scene, config)?, ..self })
     }
 
-    /// Returns the scene of the frame that was submitted last; before the first frame, the scene of
-    /// [`FrameRenderer::new`].
+    /// Returns the scene of the last submitted frame; before the first, that of [`FrameRenderer::new`].
     pub fn scene(&self) -> &FrameScene {
         &self.scene
     }
 
-    /// Returns the pose that was submitted last with this scene; absent if there was none.
+    /// Returns the pose last submitted with this scene; absent if there was none.
     pub(crate) fn posed(&self) -> Option<&FramePose> {
         self.posed.as_ref()
     }
@@ -173,7 +175,7 @@ impl FrameRenderer {
         self.image.integrator()
     }
 
-    /// Returns the structure over frames, with its counts.
+    /// Returns the structure as it is kept over frames, with its counts.
     pub fn structure(&self) -> &FrameStructure {
         self.frames.structure()
     }
@@ -216,13 +218,14 @@ impl FrameRenderer {
         Ok(())
     }
 
-    /// Records a frame and submits it; returns its number. The call does not wait, even if the frame brings
-    /// another scene.
+    /// Records a frame and submits it, also if it brings another scene; returns its number.
     ///
     /// # Errors
-    /// [`TracerError::Busy`] while all slots hold frames; a size that differs from the film's; a view that
-    /// lacks what the structure needs; a scene that kernels have no code for ([`IntegratorError::LeftOut`])
-    /// or that is not in the same parts as the structure; or the device failed.
+    /// - all slots hold frames ([`TracerError::Busy`])
+    /// - the view's size is not the film's, or the view lacks what the structure needs
+    /// - the kernels have no code for the scene ([`IntegratorError::LeftOut`])
+    /// - the scene and the structure differ in their parts
+    /// - the device failed
     pub fn submit(&mut self, input: &FrameInput) -> Result<u64, FrameError> {
         if self.frames.free_slot().is_none() {
             return Err(TracerError::Busy { slots: self.frames.slots() }.into());
@@ -295,8 +298,7 @@ impl FrameRenderer {
         ended.map(|ended| self.shown(ended)).transpose()
     }
 
-    /// Takes the oldest frame as [`FrameRenderer::take`] does, without waiting; absent while that frame has
-    /// not ended.
+    /// Takes the oldest frame like [`FrameRenderer::take`], but does not wait; absent until that frame ends.
     ///
     /// # Errors
     /// As [`FrameRenderer::take`].

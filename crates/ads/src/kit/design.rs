@@ -151,8 +151,11 @@ pub trait Design: fmt::Debug + Sized + Send + Sync {
         false
     }
 
-    /// Returns the suffix of the names of the modules that trace, which may follow the device.
-    fn trace_variant(_device: &Device, _config: &Self::Config) -> String {
+    /// Fills in the options that are left open and follow the device.
+    fn complete(_device: &Device, _config: &mut Self::Config) {}
+
+    /// Returns the suffix of the names of the modules that trace.
+    fn trace_variant(_config: &Self::Config) -> String {
         String::new()
     }
 

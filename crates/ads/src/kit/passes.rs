@@ -47,11 +47,6 @@ impl<'a> BuildPipelines<'a> {
         Self { raster: RasterOptions { conservative: true, ..self.raster }, ..self.clone() }
     }
 
-    /// Returns true if the device is a CPU, on which the duration of a pass is that of all its work.
-    pub fn is_software(&self) -> bool {
-        self.device.is_software()
-    }
-
     /// Returns the label of the pass of the module with that name.
     pub fn label(&self, name: &str) -> String {
         format!("{}/{name}", self.modules.prefix)

@@ -75,6 +75,7 @@ impl<D: Design> Pooled<D> {
         addressing.check(device)?;
         let requirements = Self::requirements_of(&config);
         device.require(D::TITLE, &requirements)?;
+        D::complete(device, &mut config);
         let pools = Pools::new(device, D::NAME, addressing, &sizes)?;
         let modules = modules::<D>(&config);
         let mut constants = D::constants(&config);
@@ -83,7 +84,7 @@ impl<D: Design> Pooled<D> {
         let pipelines = BuildPipelines::new(device, modules, geometry, &pools, build_scene, &constants);
         let design = D::make(&pipelines, &config, build_scene)?;
         let header_pass = pipelines.compute("build_0_header")?;
-        let variant = D::trace_variant(device, &config) + if rest.is_some() { ".rigid" } else { "" };
+        let variant = D::trace_variant(&config) + if rest.is_some() { ".rigid" } else { "" };
         let mut trace_modules = modules.trace_variant(&variant, scene)?;
         if D::has_first_hits(&config) {
             trace_modules.first_hits = Some(modules.find("first_hits")?);
