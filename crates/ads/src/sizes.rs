@@ -61,8 +61,8 @@ impl Sizes {
         }
     }
 
-    /// Checks a pool of pages in these sizes, and returns the sizes. Fewer pages can have numbers than
-    /// elements of other pools, because lists mark the links to pages.
+    /// Checks a pool of pages in these sizes, and returns the sizes. Pages have a lower limit than elements
+    /// of other pools, because a link to a page also holds a mark.
     ///
     /// # Errors
     /// There are more pages than [`PAGE_LIMIT`].

@@ -5,7 +5,7 @@ use rasray_scene::Scene;
 
 use crate::{GpuSceneError, layout::Draw};
 
-/// Largest magnitude of a posed coordinate, metres: its square is still finite in f32.
+/// Largest magnitude of a posed coordinate, metres: cross products of edges are then finite in f32.
 pub const LARGEST_COORDINATE: f32 = rasray_shaders_glsl::constants::scene::LARGEST_COORDINATE;
 
 /// Posed geometry of a scene, flat over instances.

@@ -8,7 +8,7 @@ use super::place::place;
 use crate::remarks::Remarks;
 use crate::{Mesh, SceneError};
 
-/// Largest magnitude of a coordinate, metres: its square is still finite in f32.
+/// Largest magnitude of a coordinate, metres: cross products of edges are then finite in f32.
 pub const MAX_COORDINATE: f32 = 1.8e18;
 
 /// Refuses indices that are not below the number of vertices, or not a multiple of three.
