@@ -51,15 +51,12 @@ impl PipelineInner {
         if constants(self) != constants(next) {
             return 0;
         }
-        let of = |pipeline: &Self| {
-            pipeline
-                .sets
-                .iter()
-                .map(SetLayout::storage_buffers)
-                .zip(pipeline.used.iter().copied())
-                .collect::<Vec<_>>()
-        };
-        of(self).into_iter().zip(of(next)).take_while(|(before, after)| before == after).count()
+        self.layouts().zip(next.layouts()).take_while(|(before, after)| before == after).count()
+    }
+
+    /// Returns what tells the layouts of the sets apart: the number of buffers, and the bindings in use.
+    fn layouts(&self) -> impl Iterator<Item = (u32, Mask)> {
+        self.sets.iter().map(SetLayout::storage_buffers).zip(self.used.iter().copied())
     }
 }
 
