@@ -22,6 +22,7 @@ uint abuffer_conservative_head(AbufferRef s, uint cell) {
 #define CONSERVATIVE_HEAD(s, cell) ABUFFER_POOL(s, bounds)[abuffer_conservative_word(cell)]
 #define CONSERVATIVE_NODES(s) ABUFFER_POOL(s, conservative)
 #define CONSERVATIVE_HEADER(s) ABUFFER_HEADER(s)
+#define CONSERVATIVE_DIVIDES
 #include "ads/conservative.glsl"
 
 #endif

@@ -47,7 +47,7 @@ bool abuffer_test_listed(AbufferRef s, Ray ray, uint source, inout AbufferTraver
             if (in_conservative) {
                 state.entries++;
                 trace_log_visit(STEP_ENTRY, search.link, 0u, 0u, 0.0, 0.0);
-                ConservativeNode node = conservative_node(s, search.link);
+                ConservativeNode node = conservative_node(s, search.link, depths.x, depths.y);
                 search.link = node.next;
                 more = search.link != 0u;
                 // If rays hit planes, the triangles tested here decide hits. So triangles outside the ray's

@@ -63,7 +63,7 @@ const bool ABUFFER_SNAPS = ABUFFER_VIEW_SWITCHING == ABUFFER_SWITCH_SNAP;
 const bool ABUFFER_HAS_CUBE = (ABUFFER_VIEWS & ABUFFER_VIEWS_CUBE) != 0u;
 const bool ABUFFER_HAS_CAMERA = (ABUFFER_VIEWS & ABUFFER_VIEWS_CAMERA) != 0u;
 
-// State and sizes of one A-buffer. Shared, 248 bytes.
+// State and sizes of one A-buffer. Shared, 252 bytes.
 struct AbufferHeader {
     uint status;          // STATUS_*; without STATUS_COMPLETE traces answer "not ready"
     // fragments that the build found, or pages that it began, also those beyond the capacity
@@ -95,9 +95,10 @@ struct AbufferHeader {
     vec3 camera_z;        // third row of that matrix: depth
     uint lost;            // triangles with an area that no cell of any view keeps
     uint triangles;       // triangles for which there are marks
-    // triangles put into conservative lists, also those beyond the capacity
+    // nodes of conservative lists, triangles and slices, also those beyond the capacity
     uint conservative_demand;
-    uint conservative_capacity; // triangles that the conservative lists hold
+    uint conservative_capacity; // nodes that the conservative lists hold
+    uint conservative_slices; // those of the demanded nodes that are slices
     float reach;          // metres: largest coordinate of the geometry relative to the eye
     float rounding;       // metres: how far rounding moves triangles; only with conservative lists
     // triangles over many cells of a view, also those beyond the capacity; binning only

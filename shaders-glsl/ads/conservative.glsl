@@ -1,18 +1,24 @@
 // The conservative list of a cell: the triangles that reach into the cell but have no fragment there. It is a
-// linked list per cell, apart from the cell's list of fragments.
+// linked list per cell, apart from the cell's list of fragments. A long list may be divided by depth into
+// slices, so that rays leave out those that they do not meet.
 // Reads, writes: through what the including file defines first. This file undefines all of it at its end:
 //   ConservativeRef                reference type of the structure
 //   CONSERVATIVE_HEAD(s, cell)     the first link of a cell
 //   CONSERVATIVE_NODES(s)          words of the nodes, three each: triangle, next link, depths in the cell
 //   CONSERVATIVE_HEADER(s)         has conservative_demand, conservative_capacity and corrupted
+//   CONSERVATIVE_DIVIDES           only if long lists are divided; the header then has conservative_slices
 // Source: not in the papers; MMRT mentions edge-on triangles as a limitation.
 // A shader with several structures includes this file once per structure: the functions are overloads by the
 // reference type. A link is the number of a node plus 1; 0 ends a list. Depths are not negative. A node
 // stores the upper 16 bits of the smallest and of the largest depth, the latter rounded up, so that the
-// stored interval contains the exact one.
+// stored interval contains the exact one. A slice is a node that has CONSERVATIVE_SLICE among its depths, and
+// in place of a triangle the link of the first triangle in it; its next link, and that of the last triangle
+// in it, is the next slice.
 
 #ifndef ADS_CONSERVATIVE_GLSL
 #define ADS_CONSERVATIVE_GLSL
+
+#include "ads/constants.glsl"
 
 // A node of a conservative list as it is read: without its triangle, which conservative_primitive reads.
 struct ConservativeNode {
@@ -44,17 +50,26 @@ void conservative_add(ConservativeRef s, uint cell, uint primitive, vec2 depths)
     }
 }
 
-// Returns the node of a link. A link past the end of the pool is counted, and gives a node that ends the
-// list.
-ConservativeNode conservative_node(ConservativeRef s, uint link) {
+// Returns the node of a link. A slice has no triangle; if its depths overlap [low, high], the node next to it
+// is its first triangle. A link past the end of the pool is counted, and gives a node that ends the list.
+ConservativeNode conservative_node(ConservativeRef s, uint link, float low, float high) {
     if (link - 1u >= min(CONSERVATIVE_HEADER(s).conservative_capacity, CONSERVATIVE_HEADER(s).conservative_demand)) {
         atomicAdd(CONSERVATIVE_HEADER(s).corrupted, 1u);
         return ConservativeNode(PRIMITIVE_NONE, 0u, vec2(0.0));
     }
     uint word = 3u * (link - 1u);
     uint depths = CONSERVATIVE_NODES(s)[word + 2u];
-    return ConservativeNode(word, CONSERVATIVE_NODES(s)[word + 1u],
-        vec2(uintBitsToFloat(depths << 16), uintBitsToFloat(depths & 0xFFFF0000u)));
+    ConservativeNode node = ConservativeNode(word, CONSERVATIVE_NODES(s)[word + 1u],
+        vec2(uintBitsToFloat(depths << 16), uintBitsToFloat(depths & 0x7FFF0000u)));
+#ifdef CONSERVATIVE_DIVIDES
+    if ((depths & CONSERVATIVE_SLICE) != 0u) {
+        if (conservative_intersects(node, low, high)) {
+            node.next = CONSERVATIVE_NODES(s)[word];
+        }
+        node.word = PRIMITIVE_NONE;
+    }
+#endif
+    return node;
 }
 
 // Returns the triangle of a node that exists.
@@ -62,7 +77,66 @@ uint conservative_primitive(ConservativeRef s, ConservativeNode node) {
     return CONSERVATIVE_NODES(s)[node.word];
 }
 
+#ifdef CONSERVATIVE_DIVIDES
+// Divides the conservative list of a cell into slices if it is long. Triangles are in slices of equal height
+// by their smallest depth. Slices beyond the capacity are only counted, and the list stays as it is.
+void conservative_divide(ConservativeRef s, uint cell) {
+    uint capacity = CONSERVATIVE_HEADER(s).conservative_capacity;
+    uint head = CONSERVATIVE_HEAD(s, cell);
+    uint length = 0u;
+    float lower = uintBitsToFloat(0x7F800000u);
+    float upper = 0.0;
+    for (uint link = head; link - 1u < capacity && length <= CONSERVATIVE_LONGEST; length++) {
+        uint word = 3u * (link - 1u);
+        float depth = uintBitsToFloat(CONSERVATIVE_NODES(s)[word + 2u] << 16);
+        lower = min(lower, depth);
+        upper = max(upper, depth);
+        link = CONSERVATIVE_NODES(s)[word + 1u];
+    }
+    if (length < CONSERVATIVE_LONG || length > CONSERVATIVE_LONGEST) {
+        return;
+    }
+    atomicAdd(CONSERVATIVE_HEADER(s).conservative_slices, CONSERVATIVE_SLICES);
+    uint first = atomicAdd(CONSERVATIVE_HEADER(s).conservative_demand, CONSERVATIVE_SLICES);
+    if (first > capacity || CONSERVATIVE_SLICES > capacity - first) {
+        return;
+    }
+    // First link and packed depths of each slice. An empty slice leads to the next one, and has depths that
+    // overlap no interval.
+    uint starts[CONSERVATIVE_SLICES];
+    uint lows[CONSERVATIVE_SLICES];
+    uint highs[CONSERVATIVE_SLICES];
+    for (uint slice = 0u; slice < CONSERVATIVE_SLICES; slice++) {
+        starts[slice] = slice + 1u < CONSERVATIVE_SLICES ? first + slice + 2u : 0u;
+        lows[slice] = 0x7F80u;
+        highs[slice] = 0u;
+    }
+    float scale = upper > lower ? float(CONSERVATIVE_SLICES) / (upper - lower) : 0.0;
+    uint link = head;
+    for (uint i = 0u; i < length; i++) {
+        uint word = 3u * (link - 1u);
+        uint next = CONSERVATIVE_NODES(s)[word + 1u];
+        uint depths = CONSERVATIVE_NODES(s)[word + 2u];
+        float place = (uintBitsToFloat(depths << 16) - lower) * scale;
+        uint slice = uint(clamp(place, 0.0, float(CONSERVATIVE_SLICES - 1u)));
+        lows[slice] = min(lows[slice], depths & 0xFFFFu);
+        highs[slice] = max(highs[slice], depths >> 16);
+        CONSERVATIVE_NODES(s)[word + 1u] = starts[slice];
+        starts[slice] = link;
+        link = next;
+    }
+    for (uint slice = 0u; slice < CONSERVATIVE_SLICES; slice++) {
+        uint word = 3u * (first + slice);
+        CONSERVATIVE_NODES(s)[word] = starts[slice];
+        CONSERVATIVE_NODES(s)[word + 1u] = slice + 1u < CONSERVATIVE_SLICES ? first + slice + 2u : 0u;
+        CONSERVATIVE_NODES(s)[word + 2u] = CONSERVATIVE_SLICE | lows[slice] | highs[slice] << 16;
+    }
+    CONSERVATIVE_HEAD(s, cell) = first + 1u;
+}
+#endif
+
 #undef ConservativeRef
 #undef CONSERVATIVE_HEAD
 #undef CONSERVATIVE_NODES
 #undef CONSERVATIVE_HEADER
+#undef CONSERVATIVE_DIVIDES

@@ -52,6 +52,14 @@
 #define LONG_LIST_ROUNDS 16u
 #define LONG_LIST_STEPS 60000u
 
+// Long conservative lists are divided into slices by depth: number of slices, least length of a list that is
+// divided, and largest, for the same reason.
+#define CONSERVATIVE_SLICES 8u
+#define CONSERVATIVE_LONG 32u
+#define CONSERVATIVE_LONGEST 30000u
+// Bit of a node's depths that says that the node is a slice.
+#define CONSERVATIVE_SLICE 0x80000000u
+
 // Longest list that these dispatches sort. A heap sort of that many elements takes at most 875,000 steps.
 // Longer lists stay unsorted, and are counted.
 #define LONG_LIST_LIMIT 50000u

@@ -51,7 +51,7 @@ bool ldc_search_conservative(LdcRef s, Ray ray, inout LdcSearch search, inout Tr
             work++;
             state.entries++;
             trace_log_visit(STEP_ENTRY, search.place, 0u, 0u, 0.0, 0.0);
-            node = conservative_node(s, search.place);
+            node = conservative_node(s, search.place, depths.x - margin, depths.y + margin);
             search.place = node.next;
             bool exists = node.word != PRIMITIVE_NONE;
             found = exists

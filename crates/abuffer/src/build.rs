@@ -56,6 +56,7 @@ pub struct Build {
     lengths: Option<Lengths>,
     store: Visit,
     conservative: Option<Visit>,
+    slices: Option<ComputePipeline>,
     lost: ComputePipeline,
     pyramid: Option<Pyramid>,
     sort: Option<ListSort>,
@@ -84,7 +85,7 @@ impl Build {
         let lengths = || Lengths::new(pipelines, covered("build_5_count", masked)?, "build_6_scan");
         let boxed = config.bounds == Bounds::Boxes;
         let sorted = if config.storage == Storage::Paged { ".pages" } else { "" };
-        let sort = || ListSort::new(pipelines, "build_11_sort", sorted, "build_12_sort_long");
+        let sort = || ListSort::new(pipelines, "build_12_sort", sorted, "build_13_sort_long");
         Ok(Self {
             near: pipelines.compute("build_1_near")?,
             large: visits.large("build_2_large")?,
@@ -102,12 +103,16 @@ impl Build {
             conservative: (config.coverage == Coverage::EdgeOn)
                 .then(|| visits.visit("build_raster.conservative", "build_8_conservative", ""))
                 .transpose()?,
-            lost: pipelines.compute("build_9_lost")?,
+            slices: config
+                .has_conservative_lists()
+                .then(|| pipelines.compute("build_9_slices"))
+                .transpose()?,
+            lost: pipelines.compute("build_10_lost")?,
             pyramid: (config.march == March::Pyramid)
-                .then(|| Pyramid::new(pipelines, "build_10_pyramid"))
+                .then(|| Pyramid::new(pipelines, "build_11_pyramid"))
                 .transpose()?,
             sort: config.sort.then(sort).transpose()?,
-            status: pipelines.compute("build_13_status")?,
+            status: pipelines.compute("build_14_status")?,
         })
     }
 
@@ -149,10 +154,13 @@ impl Build {
         if let Some(conservative) = &self.conservative {
             conservative.record(recorder, target, &draws);
         }
+        if let Some(slices) = &self.slices {
+            target.items_pass(recorder, "abuffer/build_9_slices", slices, cells, 0, shaders);
+        }
         let marks = triangles.div_ceil(32);
-        target.items_pass(recorder, "abuffer/build_9_lost", &self.lost, marks, 0, Access::COMPUTE);
+        target.items_pass(recorder, "abuffer/build_10_lost", &self.lost, marks, 0, Access::COMPUTE);
         if let Some(pyramid) = &self.pyramid {
-            pyramid.record(recorder, target, "abuffer/build_10_pyramid", &draws, Access::COMPUTE);
+            pyramid.record(recorder, target, "abuffer/build_11_pyramid", &draws, Access::COMPUTE);
         }
         if let Some(sort) = &self.sort {
             // Each page is sorted separately.
@@ -164,6 +172,6 @@ impl Build {
             let long = scratch(config).long_capacity(target.pools.sizes());
             sort.record(recorder, target, sorted, linked, long, Access::COMPUTE);
         }
-        target.status_pass(recorder, "abuffer/build_13_status", &self.status);
+        target.status_pass(recorder, "abuffer/build_14_status", &self.status);
     }
 }

@@ -22,6 +22,14 @@ pub enum Fault {
         /// Link at fault.
         link: u32,
     },
+    /// Node of a divided conservative list that is not in its slice.
+    #[error("cell {cell}: node {link} of the conservative list is not in its slice")]
+    Slice {
+        /// Index of the cell.
+        cell: usize,
+        /// Link of the node.
+        link: u32,
+    },
     /// Node that is in no list, or in more than one.
     #[error("{stored} nodes were allocated and {linked} are in lists")]
     Count {

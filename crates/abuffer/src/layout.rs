@@ -58,7 +58,7 @@ pub struct Demand {
     pub long_lists: u64,
     /// Number of triangles of the geometry.
     pub triangles: u64,
-    /// Number of triangles that conservative lists keep.
+    /// Number of nodes of conservative lists: the triangles they keep, and the slices of long lists.
     pub conservative: u64,
     /// Number of triangles with many cells of a view, which the binning builder queues.
     pub large: u64,
@@ -211,8 +211,8 @@ pub struct FormulaBytes {
     /// Bytes of fragments: per fragment `m_f` of the table, without the reference to the payload if it is
     /// inline, and a payload of 4 or 16. With paged storage: per page 4, and per slot 4 and the payload.
     pub fragments: u64,
-    /// Bytes of conservative lists, with conservative and edge-on coverage: per cell 4, and per triangle that
-    /// is kept without covering the centre 12; with edge-on coverage also 4 per 32 triangles.
+    /// Bytes of conservative lists, with conservative and edge-on coverage: per cell 4, and per node
+    /// 12; with edge-on coverage also 4 per 32 triangles.
     pub conservative: u64,
     /// Bytes of triangles that are kept for diagnostics ([`Config::ids`]): 4 per fragment, or per slot of a
     /// page.
@@ -281,7 +281,7 @@ pub fn formula_bytes(config: &Config, demand: Demand) -> FormulaBytes {
             Coverage::EdgeOn => 4 * cells + 12 * demand.conservative + 4 * demand.triangles.div_ceil(32),
         },
         ids: if config.ids { 4 * demand.nodes * node_slots(config) } else { 0 },
-        rest: 248
+        rest: 252
             + 4 * demand.near_triangles
             + (8 * demand.long_lists).max(if config.builder == Builder::Binning {
                 4 * demand.large

@@ -208,7 +208,7 @@ impl Design for Build {
             paths: parts.config.paths(),
             formula_bytes: formula.total(),
             diagnostic_bytes: formula.ids,
-            stored: Some(asked.conservative + fragments),
+            stored: Some(asked.conservative - u64::from(header.conservative_slices) + fragments),
             lost: Some(header.lost.into()),
             ..StructureReport::default()
         }

@@ -1,6 +1,7 @@
 //! Checks of the contents of a built A-buffer.
 
 use rasray_ads::ListCounts;
+use rasray_shaders_glsl::constants::ads::CONSERVATIVE_SLICE;
 
 use crate::layout::{
     bounds_words, data_words, fragment_words, node_slots, node_words, slot_bytes, view_cells,
@@ -29,7 +30,8 @@ pub struct Contents {
     /// Sums of the scan of contiguous lists, and the lists that are too long for one dispatch to sort, each
     /// with how far it is sorted.
     pub scratch: Vec<u32>,
-    /// Triangle, next link and depths of each node of the conservative lists.
+    /// Triangle, next link and depths of each node of the conservative lists; of a slice of a long list, the
+    /// link of its first triangle, the next slice, and the depths of all its triangles.
     pub conservative: Vec<u32>,
 }
 
@@ -98,23 +100,44 @@ impl Contents {
     /// Returns the triangles of a cell's conservative list, as far as the pool has stored them.
     ///
     /// # Errors
-    /// A link points to no node, or leads in a circle.
+    /// A link points to no node, or leads in a circle, or a slice does not hold its triangles.
     pub fn conservative_list_of(&self, cell: usize) -> Result<Vec<u32>, Fault> {
-        let mut found = Vec::new();
+        Ok(self.conservative_nodes_of(cell)?.0)
+    }
+
+    /// Returns the triangles of a cell's conservative list and the number of its slices.
+    fn conservative_nodes_of(&self, cell: usize) -> Result<(Vec<u32>, usize), Fault> {
+        let (mut triangles, mut slices) = (Vec::new(), 0);
         if !self.config.has_conservative_lists() {
-            return Ok(found);
+            return Ok((triangles, slices));
         }
         let stored = self.header.conservative_demand.min(self.header.conservative_capacity) as usize;
         let mut link = self.bounds[(cell + 1) * bounds_words(&self.config) as usize - 1];
+        // Depths of the slice around the node, and the slice next to it. A list that is not divided is like
+        // one slice.
+        let (mut around, mut behind) = ([0, 0x7FFF], 0);
         while link != 0 {
-            let node = 3 * (link as usize - 1);
-            if link as usize > stored || found.len() >= stored {
+            if link as usize > stored || triangles.len() + slices >= stored {
                 return Err(Fault::Conservative { cell, link });
             }
-            found.push(self.conservative[node]);
-            link = self.conservative[node + 1];
+            let &[first, next, depths] =
+                self.conservative[3 * (link as usize - 1)..].first_chunk().expect("the pool has whole nodes");
+            let [low, high] = [depths & 0xFFFF, (depths & !CONSERVATIVE_SLICE) >> 16];
+            if depths & CONSERVATIVE_SLICE != 0 {
+                if slices != 0 && link != behind {
+                    return Err(Fault::Slice { cell, link });
+                }
+                slices += 1;
+                (around, behind, link) = ([low, high], next, first);
+            } else {
+                if low < around[0] || high > around[1] || (slices != 0 && link == behind) {
+                    return Err(Fault::Slice { cell, link });
+                }
+                triangles.push(first);
+                link = next;
+            }
         }
-        Ok(found)
+        if behind == 0 { Ok((triangles, slices)) } else { Err(Fault::Slice { cell, link: behind }) }
     }
 
     /// Returns the fragment to which a hit without a triangle id refers by the bits of its `a`, or `None` if
@@ -193,7 +216,7 @@ pub fn well_formed(contents: &Contents) -> Result<(), Fault> {
     let sorted = config.sort && contents.header.unsorted == 0 && contents.complete();
     let mut named = vec![false; stored];
     let mut pages = vec![false; stored / contents.slots()];
-    let (mut linked, mut in_conservative) = (0, 0);
+    let (mut linked, mut in_conservative, mut slices) = (0, 0, 0);
     let mut place = 0;
     for cell in 0..cell_count(config) as usize {
         for bucket in 0..buckets {
@@ -219,7 +242,9 @@ pub fn well_formed(contents: &Contents) -> Result<(), Fault> {
             }
             linked += links.len();
         }
-        in_conservative += contents.conservative_list_of(cell)?.len();
+        let (triangles, slices_of) = contents.conservative_nodes_of(cell)?;
+        in_conservative += triangles.len() + slices_of;
+        slices += slices_of;
     }
     // Fragments in pages beyond the capacity cannot be found in lists.
     let expected = match config.storage {
@@ -230,11 +255,16 @@ pub fn well_formed(contents: &Contents) -> Result<(), Fault> {
     if linked != expected {
         return Err(Fault::Count { stored: expected, linked });
     }
-    let expected = contents.header.conservative_demand.min(contents.header.conservative_capacity) as usize;
-    if in_conservative == expected {
+    let header = &contents.header;
+    let [demand, room, wanted] =
+        [header.conservative_demand, header.conservative_capacity, header.conservative_slices]
+            .map(|count| count as usize);
+    let (fits, is_linked) = (demand <= room, in_conservative == demand.min(room));
+    // Slices that do not fit leave their places empty.
+    if if fits { is_linked && slices == wanted } else { is_linked || slices < wanted } {
         Ok(())
     } else {
-        Err(Fault::Count { stored: expected, linked: in_conservative })
+        Err(Fault::Count { stored: demand.min(room), linked: in_conservative })
     }
 }
 

@@ -5,6 +5,7 @@ use std::collections::HashSet;
 use rasray_abuffer::{ABuffer, Builder, Config, Coverage, March, Storage, Views, cell_count, well_formed};
 use rasray_ads::{BruteForce, Hit, Ray, Structure, StructureKind, Viewpoint};
 use rasray_gpu::Timing;
+use rasray_shaders_glsl::constants::ads::{CONSERVATIVE_LONG, CONSERVATIVE_LONGEST, CONSERVATIVE_SLICES};
 use rasray_tests::harness::{Bench, bits};
 use rasray_tests::random::Random;
 use rasray_tests::rays::towards;
@@ -279,4 +280,53 @@ fn marks_grow_with_the_geometry() {
     assert!(report.lost > Some(200), "{report:?}");
     let slack = report.bytes_by_part.iter().find(|part| part.0 == "slack").expect("the part exists").1;
     assert_eq!(report.formula_bytes, report.bytes() - slack);
+}
+
+/// Conservative lists that are shorter than those that are divided, long ones, and one that is too long: hits
+/// are those of brute force, for rays that pause too.
+#[test]
+fn long_conservative_lists_are_divided_by_depth() {
+    let bench = Bench::new();
+    let mut random = Random::new(43);
+    for count in [CONSERVATIVE_LONG - 1, 40 * CONSERVATIVE_LONG, CONSERVATIVE_LONGEST + 1] {
+        // In the cell at +z between x/z, y/z of 0 and 1, away from its centre.
+        let triangles: Vec<Triangle> = (0..count)
+            .map(|_| {
+                let depth = random.between(1.0, 20.0);
+                let [x, y] = [0; 2].map(|_| depth * random.between(0.65, 0.85));
+                random.triangle([EYE[0] + x, EYE[1] + y, EYE[2] + depth], 0.04 * depth)
+            })
+            .collect();
+        let rays: Vec<Ray> = (0..400)
+            .map(|index| {
+                let [a, b, _] = triangles[index * 7 % triangles.len()];
+                let middle = std::array::from_fn(|axis| 0.5 * a[axis] + 0.5 * b[axis]);
+                let origin = if index % 2 == 0 { EYE } else { random.point(-1.0, 20.0) };
+                towards(origin, middle)
+            })
+            .collect();
+        let geometry = bench.geometry(&triangles);
+        let brute = BruteForce::new(bench.device(), &geometry, None, false).expect("pipelines can be made");
+        let expected = bench.trace(&brute, &rays).hits;
+        for work_budget in [None, Some(500)] {
+            let config = Config { work_budget, ..Config::robust(2) };
+            let structure = built(&bench, config, &triangles);
+            let contents = structure.download(bench.device()).expect("the device works");
+            well_formed(&contents).expect("lists are well formed");
+            assert!(contents.header.conservative_demand >= count);
+            let slices = contents.header.conservative_slices;
+            let lengths = (0..cell_count(&contents.config) as usize)
+                .map(|cell| contents.conservative_list_of(cell).expect("links are sound").len() as u32);
+            assert_eq!(lengths.clone().max(), Some(count), "one cell has all triangles");
+            let divided =
+                lengths.filter(|length| (CONSERVATIVE_LONG..=CONSERVATIVE_LONGEST).contains(length));
+            assert_eq!(slices, CONSERVATIVE_SLICES * divided.count() as u32, "{count} triangles");
+            let report = structure.report().expect("the header is readable");
+            assert_eq!(report.formula_bytes, report.bytes() - report.slack(), "{count} triangles");
+            let hits = bench.trace(&structure, &rays).hits;
+            for (ray, (hit, expected)) in hits.iter().zip(&expected).enumerate() {
+                assert_eq!(bits(hit), bits(expected), "{count} triangles, budget {work_budget:?}, ray {ray}");
+            }
+        }
+    }
 }
