@@ -308,6 +308,17 @@ def lamps(folder):
     return write_scene("lamps", folder, meshes, eye=(0, 2.6, 6), target=(0, 0.5, 0), fov=45, bounces=4)
 
 
+def spheres(folder):
+    """312 balls of 960 triangles each, anywhere in a cube, below the sky."""
+    one = ball((0, 0, 0), 1.0, Material((0.7, 0.7, 0.7)), 16)
+    random = np.random.default_rng(1)
+    places, radii = random.uniform(-4, 4, (312, 1, 3)), random.uniform(0.1, 0.5, (312, 1, 1))
+    points = (places + radii * one.points).reshape(-1, 3).astype(np.float32)
+    faces = (np.arange(312)[:, None, None] * len(one.points) + one.faces).reshape(-1, 3)
+    mesh = one._replace(points=points, faces=faces, normals=np.tile(one.normals, (312, 1)))
+    return write_scene("spheres", folder, [mesh], eye=(0, 0, 12), target=(0, 0, 0), fov=45, sky=1.0, bounces=4)
+
+
 def lens(folder):
     """Balls and small lamps before, in and behind the focus of a wide lens."""
     meshes = [quads([(-9, 0, 9), (9, 0, 9), (9, 0, -9), (-9, 0, -9)], Material((0.5, 0.5, 0.5)))]
@@ -523,6 +534,8 @@ def main():
     ):
         file = options.scenes.resolve() / path / (Path(path).name + ".glb")
         scenes.append(Scene(name, file, eye, target, fov, sky, 16))
+    if "speed" in options.tables:
+        scenes.append(spheres(folder))
     only = options.only.split(",") if options.only else []
     for scene in [item for item in scenes if not only or item.name in only]:
         able = [side for side in sides if scene.meshes or not isinstance(side, Mitsuba)]
