@@ -191,7 +191,7 @@ impl Design for Build {
         name == "nodes" && config.storage == Storage::Paged
     }
 
-    fn first_rounds(parts: &Parts<Config>, header: &Header) -> u32 {
+    fn ample_rounds(parts: &Parts<Config>, header: &Header) -> u32 {
         // A single conservative list may hold every triangle, as with a small object in a large world.
         parts.usual_rounds()
             + parts.rounds(header.conservative_demand.min(parts.elements(Pool::Conservative) as u32))

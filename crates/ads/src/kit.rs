@@ -37,7 +37,7 @@ pub(crate) mod visit;
 pub use crate::viewpoint::box_is_same;
 pub use addressing::{Modules, TraceModules};
 pub use configured::{Common, Configured, check_range, check_work_budget};
-pub use design::{Demand, Design, Parts, default_work_budget};
+pub use design::{Demand, Design, FIRST_ROUNDS, Parts, default_work_budget};
 pub use groups::{folded, workgroups};
 pub use kernels::{Lookup, TraceKernels, TraceKernelsDesc};
 pub use lengths::Lengths;

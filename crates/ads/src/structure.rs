@@ -163,7 +163,8 @@ pub trait Structure: Send + Sync {
     /// Host-visible memory could not be read.
     fn report(&self) -> Result<StructureReport, GpuError>;
 
-    /// Returns the number of rounds in which nearly every ray finishes; 1 if rays do not pause.
+    /// Returns the number of rounds that a trace records: those in which nearly every ray finishes until
+    /// [`Structure::allow_more_rounds`] is called; 1 if rays do not pause.
     fn rounds(&self) -> u32 {
         1
     }

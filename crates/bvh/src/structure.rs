@@ -20,10 +20,6 @@ use crate::{
     Builder, Children, Config, Contents, Header, Loads, Node, NodeOfFour, Pool, Record, well_formed,
 };
 
-/// Number of rounds that a trace records at first. Each costs two dispatches, even if no ray is left, and
-/// only a ray that hits hundreds of thousands of boxes needs more.
-const FIRST_ROUNDS: u32 = 64;
-
 /// A bounding volume hierarchy with two or four children per node, made from a [`Config`].
 pub type Bvh = Pooled<Passes>;
 
@@ -315,8 +311,8 @@ impl Design for Passes {
         }
     }
 
-    fn first_rounds(parts: &Parts<Config>, _header: &Header) -> u32 {
-        most_rounds(parts).min(FIRST_ROUNDS)
+    fn ample_rounds(parts: &Parts<Config>, _header: &Header) -> u32 {
+        most_rounds(parts)
     }
 
     fn most_rounds(parts: &Parts<Config>) -> Option<u32> {

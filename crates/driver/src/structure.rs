@@ -151,7 +151,7 @@ impl Design for Passes {
         Demand { triangles: sizes.elements_of(Pool::Boxes) }
     }
 
-    fn first_rounds(parts: &Parts<Config>, _header: &Header) -> u32 {
+    fn ample_rounds(parts: &Parts<Config>, _header: &Header) -> u32 {
         parts.rounds_with_distant_rays()
     }
 

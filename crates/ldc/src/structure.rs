@@ -159,7 +159,7 @@ impl Design for Build {
         }
     }
 
-    fn first_rounds(parts: &Parts<Config>, header: &Header) -> u32 {
+    fn ample_rounds(parts: &Parts<Config>, header: &Header) -> u32 {
         // A single cell may hold every triangle, as with a small object in a large world.
         let deepest = match parts.config.accept {
             Accept::Triangle => header.demand.min(parts.geometry.triangle_count()),

@@ -147,7 +147,7 @@ impl Design for Passes {
         }
     }
 
-    fn first_rounds(parts: &Parts<Config>, _header: &Header) -> u32 {
+    fn ample_rounds(parts: &Parts<Config>, _header: &Header) -> u32 {
         parts.rounds_with_distant_rays()
     }
 

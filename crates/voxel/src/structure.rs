@@ -130,7 +130,7 @@ impl Design for Build {
         name == "fragments" && config.storage == Storage::Paged
     }
 
-    fn first_rounds(parts: &Parts<Config>, header: &Header) -> u32 {
+    fn ample_rounds(parts: &Parts<Config>, header: &Header) -> u32 {
         let config = &parts.config;
         // Work of a ray: the cells of three views, the voxels, and lists. With bisection the lists count as
         // one that holds every triangle, else as LONG_LISTS_PER_RAY lists of maximum length. Parity without

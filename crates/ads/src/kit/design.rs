@@ -17,6 +17,10 @@ use crate::{
 /// declares the device lost.
 const HARDWARE_WORK_BUDGET: u32 = 16 * TRACE_WORK_BUDGET;
 
+/// Number of rounds that traces record at first. Few rays need a second one, and a round takes time even if
+/// no ray is left: on a software driver as long as hundreds of rays.
+pub const FIRST_ROUNDS: u32 = 2;
+
 /// Returns the default work budget of structures on a device. Software drivers end all loops of a group after
 /// 65,535 iterations; other drivers have no such limit. The budget does not change any hit.
 pub fn default_work_budget(device: &Device) -> u32 {
@@ -277,9 +281,10 @@ pub trait Design: fmt::Debug + Sized + Send + Sync {
         false
     }
 
-    /// Returns the number of rounds in which nearly every ray finishes; `header` is that of the last build,
-    /// and zeros before the first build.
-    fn first_rounds(parts: &Parts<Self::Config>, header: &Self::Header) -> u32;
+    /// Returns the number of rounds in which nearly every ray finishes, also one with much more work than
+    /// others; `header` is that of the last build, and zeros before the first build. A trace records fewer at
+    /// first ([`FIRST_ROUNDS`](crate::kit::FIRST_ROUNDS)).
+    fn ample_rounds(parts: &Parts<Self::Config>, header: &Self::Header) -> u32;
 
     /// Returns the number of rounds in which every ray finishes; absent if a ray may have to read every
     /// stored element.

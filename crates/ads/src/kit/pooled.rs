@@ -7,8 +7,8 @@ use rasray_gpu::{Access, BindingSet, Device, GpuError, Recorder, Requirements};
 use rasray_shaders_glsl::constants::contract::STATUS_COMPLETE;
 
 use crate::kit::{
-    BuildPipelines, Common, Configured, Demand, Design, Modules, Parts, PoolContents, PoolName, Pools,
-    TraceKernels, TraceKernelsDesc, default_work_budget,
+    BuildPipelines, Common, Configured, Demand, Design, FIRST_ROUNDS, Modules, Parts, PoolContents, PoolName,
+    Pools, TraceKernels, TraceKernelsDesc, default_work_budget,
 };
 use crate::{
     AdsError, BuildStatus, Check, Counters, Description, Domain, Geometry, GeometryRigid, InlineTrace,
@@ -187,8 +187,8 @@ impl<D: Design> Pooled<D> {
         D::capacity(&self.parts.config, self.parts.pools.sizes(), &self.parts.extent())
     }
 
-    fn first_rounds(&self) -> u32 {
-        D::first_rounds(&self.parts, &self.known())
+    fn ample_rounds(&self) -> u32 {
+        D::ample_rounds(&self.parts, &self.known())
     }
 }
 
@@ -315,15 +315,14 @@ impl<D: Design> Structure for Pooled<D> {
     }
 
     fn rounds(&self) -> u32 {
-        self.parts.pools.rounds(self.first_rounds())
+        self.parts.pools.rounds(FIRST_ROUNDS.min(self.ample_rounds()))
     }
 
     fn allow_more_rounds(&self) -> bool {
-        let (pools, first) = (&self.parts.pools, self.first_rounds());
-        match D::most_rounds(&self.parts) {
-            Some(most) => pools.allow_more_rounds(first, most),
-            None => pools.allow_rounds_to_read_all(first, self.parts.work_budget),
-        }
+        let (pools, ample) = (&self.parts.pools, self.ample_rounds());
+        let most = D::most_rounds(&self.parts);
+        let most = most.unwrap_or_else(|| pools.rounds_to_read_all(ample, self.parts.work_budget));
+        pools.allow_more_rounds(FIRST_ROUNDS.min(ample), most)
     }
 
     fn record_trace(&self, recorder: &mut Recorder<'_>, queue: &RayQueue, mut trace: Trace<'_>) {

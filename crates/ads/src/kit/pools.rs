@@ -291,13 +291,12 @@ impl Pools {
         more > now
     }
 
-    /// Raises the number as [`Pools::allow_more_rounds`] does, up to `first` rounds plus those in which a ray
-    /// reads every stored element. A ray that needs more is in a list without an end, which only damaged
-    /// memory has.
-    pub fn allow_rounds_to_read_all(&self, first: u32, work_budget: u32) -> bool {
+    /// Returns `ample` rounds plus those in which a ray reads every stored element. A ray that needs more is
+    /// in a list without an end, which only damaged memory has.
+    pub fn rounds_to_read_all(&self, ample: u32, work_budget: u32) -> u32 {
         let elements: u64 = self.sizes.pools.iter().map(|pool| pool.elements).sum();
-        let most = u64::from(first) + elements.div_ceil(work_budget.into());
-        self.allow_more_rounds(first, most.min(u32::MAX.into()) as u32)
+        let most = u64::from(ample) + elements.div_ceil(work_budget.into());
+        most.min(u32::MAX.into()) as u32
     }
 
     /// Records a trace as [`TraceKernels::record_trace`] does. Traces count list entries with an invalid
