@@ -38,6 +38,11 @@ bool abuffer_test_listed(AbufferRef s, Ray ray, uint source, inout AbufferTraver
     float t_low = anywhere ? -ABUFFER_INFINITY : traversal.segment.t_begin - traversal.segment.t_error;
     float t_high = anywhere ? ABUFFER_INFINITY : traversal.segment.t_end + traversal.segment.t_error;
     vec2 depths = search.z + vec2(-search.rounding, search.rounding);
+    // If rays hit planes, the triangles tested here decide hits. So triangles outside the ray's depths are
+    // left out even without skipping.
+    if (ABUFFER_SKIP == 0u && ABUFFER_CONSERVATIVE) {
+        depths = CONSERVATIVE_ALL;
+    }
     while (true) {
         // A loop of its own finds the next triangle, so that rays that run together also test together.
         uint primitive = PRIMITIVE_NONE;
@@ -47,16 +52,12 @@ bool abuffer_test_listed(AbufferRef s, Ray ray, uint source, inout AbufferTraver
             if (in_conservative) {
                 state.entries++;
                 trace_log_visit(STEP_ENTRY, search.link, 0u, 0u, 0.0, 0.0);
-                ConservativeNode node = conservative_node(s, search.link, depths.x, depths.y);
+                ConservativeNode node = conservative_node(s, search.link, depths);
                 search.link = node.next;
                 more = search.link != 0u;
-                // If rays hit planes, the triangles tested here decide hits. So triangles outside the ray's
-                // depths are left out even without skipping.
-                bool intersects = (ABUFFER_SKIP == 0u && ABUFFER_CONSERVATIVE) || conservative_intersects(node, depths.x,
-                    depths.y);
-                if (node.word != PRIMITIVE_NONE && intersects) {
+                if (node.word != PRIMITIVE_NONE) {
                     primitive = conservative_primitive(s, node);
-                } else if (node.word != PRIMITIVE_NONE) {
+                } else {
                     trace_log(STEP_SKIP, SKIP_OUTSIDE, 0u, 0u, node.depths.x, node.depths.y);
                 }
             } else {

@@ -32,7 +32,7 @@ uvec2 abuffer_pyramid_conservative(AbufferRef s, uint cell) {
         if (i == ABUFFER_PYRAMID_CONSERVATIVE) {
             return uvec2(~0u, 0x7F800000u);
         }
-        ConservativeNode node = conservative_node(s, link, 0.0, uintBitsToFloat(0x7F800000u));
+        ConservativeNode node = conservative_node(s, link, CONSERVATIVE_ALL);
         link = node.next;
         if (node.word != PRIMITIVE_NONE) {
             vec2 depths = vec2(max(node.depths.x - rounding, 0.0), node.depths.y + rounding);

@@ -22,10 +22,13 @@
 
 // A node of a conservative list as it is read: without its triangle, which conservative_primitive reads.
 struct ConservativeNode {
-    uint word;            // first word of the node; PRIMITIVE_NONE if there is no such node
+    uint word;            // first word of the node; PRIMITIVE_NONE if no triangle in the depths asked for
     uint next;            // link of the next node; 0 at the end of the list
     vec2 depths;          // smallest and largest depth that the triangle has in the cell, metres
 };
+
+// Depths to ask for if all triangles are wanted.
+#define CONSERVATIVE_ALL vec2(0.0, uintBitsToFloat(0x7F800000u))
 
 uint conservative_pack_depths(vec2 depths) {
     // Rounding up turns the largest finite number into infinity. The minimum keeps infinity as it is.
@@ -33,10 +36,6 @@ uint conservative_pack_depths(vec2 depths) {
     return floatBitsToUint(depths.x) >> 16 | high << 16;
 }
 
-// True if the depth interval of a node overlaps [low, high].
-bool conservative_intersects(ConservativeNode node, float low, float high) {
-    return !(node.depths.x > high) && !(node.depths.y < low);
-}
 #endif
 
 // Adds a triangle to the conservative list of a cell, with its smallest and largest depth in the cell. Beyond
@@ -50,26 +49,24 @@ void conservative_add(ConservativeRef s, uint cell, uint primitive, vec2 depths)
     }
 }
 
-// Returns the node of a link. A slice has no triangle; if its depths overlap [low, high], the node next to it
-// is its first triangle. A link past the end of the pool is counted, and gives a node that ends the list.
-ConservativeNode conservative_node(ConservativeRef s, uint link, float low, float high) {
+// Returns the node of a link, with a triangle if its depths overlap those asked for, from x to y. A slice has
+// no triangle; if it overlaps, the node next to it is its first triangle. A link past the end of the pool is
+// counted, and gives a node that ends the list.
+ConservativeNode conservative_node(ConservativeRef s, uint link, vec2 asked) {
     if (link - 1u >= min(CONSERVATIVE_HEADER(s).conservative_capacity, CONSERVATIVE_HEADER(s).conservative_demand)) {
         atomicAdd(CONSERVATIVE_HEADER(s).corrupted, 1u);
         return ConservativeNode(PRIMITIVE_NONE, 0u, vec2(0.0));
     }
     uint word = 3u * (link - 1u);
     uint depths = CONSERVATIVE_NODES(s)[word + 2u];
-    ConservativeNode node = ConservativeNode(word, CONSERVATIVE_NODES(s)[word + 1u],
-        vec2(uintBitsToFloat(depths << 16), uintBitsToFloat(depths & 0x7FFF0000u)));
+    vec2 ends = vec2(uintBitsToFloat(depths << 16), uintBitsToFloat(depths & 0x7FFF0000u));
+    bool meets = !(ends.x > asked.y) && !(ends.y < asked.x);
+    bool is_slice = false;
 #ifdef CONSERVATIVE_DIVIDES
-    if ((depths & CONSERVATIVE_SLICE) != 0u) {
-        if (conservative_intersects(node, low, high)) {
-            node.next = CONSERVATIVE_NODES(s)[word];
-        }
-        node.word = PRIMITIVE_NONE;
-    }
+    is_slice = depths >= CONSERVATIVE_SLICE;
 #endif
-    return node;
+    uint next = CONSERVATIVE_NODES(s)[is_slice && meets ? word : word + 1u];
+    return ConservativeNode(is_slice || !meets ? PRIMITIVE_NONE : word, next, ends);
 }
 
 // Returns the triangle of a node that exists.

@@ -6,7 +6,7 @@
 
 #include "ads/constants.glsl"
 
-// The structure, the slots, and what is asked of a trace. 24 bytes.
+// The structure, the slots, and what is asked of a trace. 28 bytes.
 layout(push_constant, scalar) uniform TraceConstants {
     StructureRef structure;   // the device address of the header, low word first; zero with descriptors
     uint domain;              // number of first slots, or DOMAIN_SELECTED
@@ -15,6 +15,7 @@ layout(push_constant, scalar) uniform TraceConstants {
     // PART_AFTER for each part traced later
     uint part;
     uint any_hit;             // 1: any hit will do; 0: the nearest hit is to be found
+    uint is_last;             // 1: no round follows, so rays that pause get no answer
 } trace;
 
 #endif

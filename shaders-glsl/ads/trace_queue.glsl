@@ -126,19 +126,23 @@ void trace_store(uint slot, uint result, TraceState state, Hit hit) {
     state.visit = trace_log_entered << 1 | trace_log_unread;
     queue_store_work(slot, state);
     queue_add_visits(trace_log_views, trace_log_searched);
+    bool is_answered = result != TRACE_PAUSED && result != TRACE_NOT_READY;
     if (result == TRACE_PAUSED) {
         trace_log(STEP_PAUSE, 0u, 0u, 0u, 0.0, 0.0);
         queue_set_state(slot, state);
         LIST_APPEND(queue_header.paused, queue_header.capacity, queue_list,
             queue_paused_at(queue_header.round, queue_header.capacity), slot)
-        return;
-    }
-    if (result == TRACE_NOT_READY) {
+        if (trace.is_last == 0u) {
+            return;
+        }
+    } else if (result == TRACE_NOT_READY) {
         atomicAdd(queue_header.not_ready, 1u);
+    }
+    if (!is_answered) {
         hit = Hit(queue_ray(slot).t_max, PRIMITIVE_NONE, 0.0, uintBitsToFloat(HIT_NOT_READY));
     }
 #ifdef STRUCTURE_STORES_FRAGMENTS
-    if (result != TRACE_NOT_READY && trace_is_apart()) {
+    if (is_answered && trace_is_apart()) {
         hit = nearer_part(queue_hit(slot), hit);
     }
 #endif
@@ -146,8 +150,10 @@ void trace_store(uint slot, uint result, TraceState state, Hit hit) {
         // No hit in this part, but one in an earlier part.
         result = TRACE_HIT;
     }
-    trace_log(STEP_END, result, hit.primitive, 0u, hit.t, hit.t);
-    queue_add_work(state.cells, state.entries, state.tests);
+    if (result != TRACE_PAUSED) {
+        trace_log(STEP_END, result, hit.primitive, 0u, hit.t, hit.t);
+        queue_add_work(state.cells, state.entries, state.tests);
+    }
     queue_set_hit(slot, hit);
 }
 

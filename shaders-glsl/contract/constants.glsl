@@ -35,7 +35,8 @@
 // Maximum number of parts of a geometry.
 #define PARTS_MOST 65536u
 
-// Bits of Hit.b of a miss that is no answer, because the structure was not complete.
+// Bits of Hit.b of a miss that is no answer, because the structure was not complete or the ray has not
+// finished.
 #define HIT_NOT_READY 0x7F7FFFFEu
 
 // Flag of a draw: it has an alpha mask, by which the alpha test refuses candidates.

@@ -43,7 +43,10 @@ uint ldc_first_from(LdcRef s, uvec2 list, float z, inout TraceState state, inout
 // Searches the nodes of the conservative list. Returns true if the work budget ended before the list.
 bool ldc_search_conservative(LdcRef s, Ray ray, inout LdcSearch search, inout TraceState state, inout uint work) {
     vec2 depths = ldc_depths_between(search.z_origin, search.z_direction, search.t_low, search.t_high);
-    float margin = search.sizes.margin;
+    depths += vec2(-search.sizes.margin, search.sizes.margin);
+    if (LDC_SKIP == 0u) {
+        depths = CONSERVATIVE_ALL;
+    }
     while (true) {
         bool found = false;
         ConservativeNode node;
@@ -51,12 +54,10 @@ bool ldc_search_conservative(LdcRef s, Ray ray, inout LdcSearch search, inout Tr
             work++;
             state.entries++;
             trace_log_visit(STEP_ENTRY, search.place, 0u, 0u, 0.0, 0.0);
-            node = conservative_node(s, search.place, depths.x - margin, depths.y + margin);
+            node = conservative_node(s, search.place, depths);
             search.place = node.next;
-            bool exists = node.word != PRIMITIVE_NONE;
-            found = exists
-                && (LDC_SKIP == 0u || conservative_intersects(node, depths.x - margin, depths.y + margin));
-            if (exists && !found) {
+            found = node.word != PRIMITIVE_NONE;
+            if (!found) {
                 trace_log(STEP_SKIP, SKIP_OUTSIDE, 0u, 0u, node.depths.x, node.depths.y);
             }
             if (!NESTED_SEARCH) {

@@ -9,7 +9,7 @@ use rasray_ads::{
     Surface, Trace, TraceMode, TracedPart, Viewpoint,
 };
 pub use rasray_experiment::oracle_ray;
-use rasray_gpu::{BufferUsage, Device, DeviceDesc, Feature, Requirements, Timing};
+use rasray_gpu::{BufferUsage, Device, DeviceDesc, Feature, Recorder, Requirements, Timing};
 use rasray_reference::oracle;
 use rasray_systems::Spec;
 use rasray_tracer::{BatchTracer, TraceOutcome, build_until_complete};
@@ -180,17 +180,23 @@ impl Bench {
         let device = self.device();
         let count = rays.len() as u32;
         let queue = RayQueue::new(device, "surfaces", count, true).expect("a queue fits");
-        device.submit(|recorder| queue.record_reset(recorder)).expect("the device works");
         device.upload_slice(queue.rays(), 0, rays).expect("the device works");
-        let submitted = device.submit(|recorder| {
+        let trace = |recorder: &mut Recorder<'_>| {
+            queue.record_reset(recorder);
             structure.record_trace(recorder, &queue, Trace::closest(Domain::First(count)));
             structure.record_surfaces(recorder, &queue, Domain::First(count), TracedPart::Whole)
-        });
-        submitted.expect("the device works").value.expect("the scene has surfaces");
+        };
+        let counters = loop {
+            let submitted = device.submit(trace).expect("the device works");
+            submitted.value.expect("the scene has surfaces");
+            let counters = queue.download_counters(device).expect("the device works");
+            if counters.unfinished == 0 || !structure.allow_more_rounds() {
+                break counters;
+            }
+        };
         let hits = device.download_as::<Hit>(queue.hits(), 0, rays.len()).expect("the device works");
         let surfaces =
             device.download_as::<Surface>(queue.surfaces(), 0, rays.len()).expect("the device works");
-        let counters = queue.download_counters(device).expect("the device works");
         assert_eq!((counters.unfinished, counters.not_ready, counters.corrupted), (0, 0, 0));
         hits.into_iter().zip(surfaces).collect()
     }

@@ -385,7 +385,7 @@ fn frames_in_flight_that_need_more_rounds_are_repeated() {
     let triangle = [[-0.2, 0.1, -0.1], [0.2, 0.1, -0.4], [-0.2, 0.5, -0.4]];
     *last = Mesh { positions: triangle.to_vec(), indices: [0, 1, 2].repeat(120), ..sheet(last, 0) };
     let whole = spec("bvh", &[("builder", "lbvh")]);
-    let mut renderer = beginning(device, &scene, None, &whole.clone().with_work_budget(4));
+    let mut renderer = beginning(device, &scene, None, &whole.clone().with_work_budget(64));
     let inputs = [0.0, 0.01, 0.02].map(|moved| with_scene(&scene, moved, None));
     let (found, repeated) = pictures(&mut renderer, inputs.to_vec());
     assert_eq!(repeated, 2, "both frames in flight have too few rounds");

@@ -10,7 +10,8 @@ use super::{Host, Result, rays};
 /// structure whose demand is known only once an earlier pool sufficed needs a few more.
 const BUILDS: u32 = 9;
 
-/// Builds and traces in one command buffer of the host; repeats both if a build needs more capacity.
+/// Builds and traces in one command buffer of the host; repeats both if a build needs more capacity, or a ray
+/// more rounds.
 pub fn hits(host: &Host, device: &Device, structure: &mut dyn Structure) -> Result<Vec<Hit>> {
     let rays = rays();
     let queue = RayQueue::new(device, "rays", rays.len() as u32, false)?;
@@ -31,7 +32,11 @@ pub fn hits(host: &Host, device: &Device, structure: &mut dyn Structure) -> Resu
         drop(recorded);
         let status = structure.status(0)?;
         match structure.check(&status, 0)? {
-            Check::Complete => return Ok(device.download_as(queue.hits(), 0, rays.len())?),
+            Check::Complete if queue.download_counters(device)?.unfinished == 0 => {
+                return Ok(device.download_as(queue.hits(), 0, rays.len())?);
+            }
+            Check::Complete if structure.allow_more_rounds() => continue,
+            Check::Complete => return Err("rays do not finish in any number of rounds".into()),
             Check::Grow(sizes) => structure.resize(device, &sizes)?,
         }
         lacking = status.shortest_pool();

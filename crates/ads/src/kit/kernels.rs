@@ -176,6 +176,7 @@ impl TraceKernels {
             work_budget: self.work_budget,
             part,
             any_hit: 0,
+            is_last: 0,
         }
     }
 
@@ -222,15 +223,20 @@ impl TraceKernels {
         };
         let any_hit = mode == TraceMode::Occluded;
         let constants = TraceConstants { any_hit: any_hit.into(), ..self.constants(address, domain, part) };
+        let rounds = rounds.max(1);
+        let bind = |recorder: &mut Recorder<'_>, round| {
+            let constants = TraceConstants { is_last: (round + 1 == rounds).into(), ..constants };
+            self.bind(recorder, &self.trace, geometry, structure, queue, constants);
+        };
         recorder.begin_pass(Stage::Trace(mode), &self.trace_labels[usize::from(any_hit)]);
         if !listed {
             record_first_round(recorder, queue);
-            self.bind(recorder, &self.trace, geometry, structure, queue, constants);
+            bind(recorder, 0);
             queue.record_dispatch(recorder, domain);
         }
-        for _ in u32::from(!listed)..rounds.max(1) {
+        for round in u32::from(!listed)..rounds {
             self.record_next_round(recorder, queue, false);
-            self.bind(recorder, &self.trace, geometry, structure, queue, constants);
+            bind(recorder, round);
             recorder.dispatch_indirect(queue.header(), 0);
         }
         self.record_next_round(recorder, queue, true);
