@@ -139,7 +139,7 @@ void trace_store(uint slot, uint result, TraceState state, Hit hit) {
         atomicAdd(queue_header.not_ready, 1u);
     }
     if (!is_answered) {
-        hit = Hit(queue_ray(slot).t_max, PRIMITIVE_NONE, 0.0, uintBitsToFloat(HIT_NOT_READY));
+        hit = Hit(queue_rays[slot].t_max, PRIMITIVE_NONE, 0.0, uintBitsToFloat(HIT_NOT_READY));
     }
 #ifdef STRUCTURE_STORES_FRAGMENTS
     if (is_answered && trace_is_apart()) {

@@ -181,7 +181,7 @@ mod tests {
                 // Gathering photons asks all lobes for their value, as light samples do.
                 ("integrators/path_shade.comp", _) if shader.name.ends_with(".photons") => 25_000,
                 ("integrators/path_shade.comp", _) => 20_000,
-                _ => 32_500,
+                _ => 32_000,
             };
             let length = expanded_length(&shader.words());
             if length > most {
