@@ -1,12 +1,12 @@
 //! Costs of frames of a scene that moves: `cargo bench --bench frames -- [SCENE] [WIDTHxHEIGHT] [FRAMES]
 //! [SYSTEM,...]`.
 //!
-//! Prints for each system the medians over frames of pose, build, trace, surfaces and shade, each timed by
-//! itself. From these follows the time of a frame at 1, 4 and 16 rays per pixel, divided by the time with a
-//! tree that is rebuilt by Morton codes. `crossover` is the number of rays per pixel up to which, or from
-//! which on, the system is faster than that tree. Rays are those of the camera; `cells`, `entries` and
-//! `tests` are the averages per ray, counted in a trace that is not timed. Times of software devices are only
-//! for ratios on that device.
+//! Prints for each system the medians over frames of pose, trace, surfaces and shade, each timed by itself,
+//! and the mean of builds, since a tree that frames keep is made anew now and then. From these follows the
+//! time of a frame at 1, 4 and 16 rays per pixel, divided by the time with a tree that is rebuilt by Morton
+//! codes. `crossover` is the number of rays per pixel up to which, or from which on, the system is faster
+//! than that tree. Rays are those of the camera; `cells`, `entries` and `tests` are the averages per ray,
+//! counted in a trace that is not timed. Times of software devices are only for ratios on that device.
 
 use std::error::Error;
 use std::ffi::OsStr;
@@ -53,7 +53,7 @@ const RAYS: [u32; 3] = [1, 4, 16];
 /// Settings of frames that follow one after the other, in pools with half as much again as they have to hold.
 const SETTINGS: FrameSettings = FrameSettings { slots: 1, headroom: 50 };
 
-/// Medians over frames, milliseconds.
+/// Medians over frames, the mean for builds; milliseconds.
 #[derive(Clone, Copy)]
 struct Frame {
     pose: f64,
@@ -95,7 +95,7 @@ fn main() -> Result<()> {
     let loaded = load(OsStr::new(&name))?;
     let [width, height] = size;
     println!(
-        "{}, {}, {} triangles, {width} x {height}, medians of {count} frames, milliseconds\n",
+        "{}, {}, {} triangles, {width} x {height}, medians of {count} frames, means of their builds, milliseconds\n",
         device.name(),
         loaded.scene.name,
         loaded.triangles
@@ -210,13 +210,13 @@ fn frames(
     let middle = |of: fn(&Frame) -> f64| median(&all.iter().map(of).collect::<Vec<_>>()).unwrap_or(f64::NAN);
     let frame = Frame {
         pose: middle(|frame| frame.pose),
-        build: middle(|frame| frame.build),
+        build: all.iter().map(|frame| frame.build).sum::<f64>() / all.len() as f64,
         trace: middle(|frame| frame.trace),
         surfaces: middle(|frame| frame.surfaces),
         shade: middle(|frame| frame.shade),
     };
-    // Kernels that count differ from the timed ones. A tree that is refitted has to keep the order of the
-    // first frame, as the timed tree did.
+    // Kernels that count differ from the timed ones. A tree that is kept is counted as it is when it was made
+    // for the first frame.
     let mut counting = setting.create(&spec.clone().with_counters(Counters::Sums), in_parts)?;
     for number in [0, count] {
         setting.show(number)?;

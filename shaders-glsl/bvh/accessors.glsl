@@ -60,6 +60,11 @@ uint bvh_leaf_count(uint reference) {
     return ((reference & ~BVH_LEAF) >> BVH_LEAF_SHIFT) + 1u;
 }
 
+// Returns the triangle of a record; PRIMITIVE_NONE past the end.
+uint bvh_primitive(BvhRef s, uint record) {
+    return record < BVH_HEADER(s).record_capacity ? BVH_RECORDS(s)[record].primitive : PRIMITIVE_NONE;
+}
+
 void bvh_set_record(BvhRef s, uint record, BvhRecord value) {
     if (record < BVH_HEADER(s).record_capacity) {
         BVH_RECORDS(s)[record] = value;
@@ -203,6 +208,14 @@ uint bvh_add_scratch(BvhRef s, uint word, uint value) {
         return 0u;
     }
     return atomicAdd(BVH_POOL(s, scratch)[word], value);
+}
+
+// Raises a word to a value, as above. A word past the end is taken to be the largest.
+uint bvh_max_scratch(BvhRef s, uint word, uint value) {
+    if (word >= BVH_HEADER(s).scratch_capacity) {
+        return 0xFFFFFFFFu;
+    }
+    return atomicMax(BVH_POOL(s, scratch)[word], value);
 }
 
 #endif

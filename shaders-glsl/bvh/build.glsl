@@ -3,7 +3,8 @@
 // Reads, writes: see accessors.glsl.
 // The meaning of build.step depends on the pass: the digit of the sort, 0 being the lowest; the level that
 // unions or clusters are read from; the round, for the pass that lists chains; the class, for the passes
-// along chains, plus BVH_TREELET_CLASSES times the round where treelets are restructured.
+// along chains, plus BVH_TREELET_CLASSES times the round where treelets are restructured; 1 in the passes
+// that list and make nodes of four if later builds may keep the tree; the level, for the pass that refits.
 #ifndef BVH_BUILD_GLSL
 #define BVH_BUILD_GLSL
 

@@ -1,11 +1,27 @@
 // Makes the nodes of four: children and boxes of each follow from the nodes of two that are opened for it.
-// Reads: nodes of two, scratch (openings, numbers, list). Writes: nodes of four, header.node_count,
-// header.root.
+// Reads: nodes of two, records, scratch (openings, numbers, list). Writes: nodes of four, header.node_count,
+// header.root, header.cost.
 // One invocation per node of four.
 // Source: none; docs/systems/bvh.md, "Opening".
 #version 460
 #include "contract/extensions.glsl"
+#include "bvh/cost.glsl"
 #include "bvh/four_children.glsl"
+
+// Returns the sum of the areas of the boxes of a leaf's triangles; 0 for a leaf of one triangle, and for what
+// is no leaf.
+float of_leaf(uint reference, float per_metre) {
+    bool is_leaf = (reference & BVH_LEAF) != 0u && reference != BVH_NONE;
+    uint count = is_leaf ? bvh_leaf_count(reference) : 0u;
+    float sum = 0.0;
+    for (uint i = 0u; i < count && count > 1u; i++) {
+        vec3 lower = vec3(uintBitsToFloat(0x7F800000u));
+        vec3 upper = -lower;
+        bvh_include_record(bvh_leaf_first(reference) + i, lower, upper);
+        sum += area(lower, upper, per_metre);
+    }
+    return sum;
+}
 
 layout(local_size_x = BUILD_GROUP_SIZE) in;
 
@@ -46,4 +62,10 @@ void main() {
         }
     }
     bvh_set_children_of_four(build.structure, four_number, four_children, four_lower, four_upper);
+    if (build.step == 1u) {
+        float per_metre = scene_lengths_per_metre();
+        float of_triangles = of_leaf(four_children.x, per_metre) + of_leaf(four_children.y, per_metre)
+            + of_leaf(four_children.z, per_metre) + of_leaf(four_children.w, per_metre);
+        add_cost(four_children, four_lower, four_upper, of_triangles, per_metre);
+    }
 }

@@ -18,8 +18,10 @@ struct BvhRecordWords {
 
 POOL_VECTORS(bvh, node_halves, 1, u64vec4, 8)
 POOL_VECTORS(bvh, record_words, 2, BvhRecordWords, 8)
+POOL_VECTORS(bvh, scratch_halves, 3, uint64_t, 8)
 #define BVH_NODE_HALVES(s) POOL_VIEW_OF(bvh, node_halves, BVH_HEADER(s).nodes_address)
 #define BVH_RECORD_WORDS(s) POOL_VIEW_OF(bvh, record_words, BVH_HEADER(s).records_address)
+#define BVH_SCRATCH_HALVES(s) POOL_VIEW_OF(bvh, scratch_halves, BVH_HEADER(s).scratch_address)
 
 // Reads the 64 bytes of a node, which must lie below the capacity.
 void bvh_load_node(BvhRef s, uint node, out uvec4 words[4]) {
@@ -41,6 +43,15 @@ void bvh_load_record(BvhRef s, uint record, out uvec2 words[5]) {
     words[4] = unpack32(BVH_RECORD_WORDS(s)[record].last);
 }
 
+// Reads six words of the scratch pool from an even place on, as a box; all of it must be within the pool.
+void bvh_load_box(BvhRef s, uint word, out vec3 lower, out vec3 upper) {
+    uvec2 first = unpack32(BVH_SCRATCH_HALVES(s)[word / 2u]);
+    uvec2 second = unpack32(BVH_SCRATCH_HALVES(s)[word / 2u + 1u]);
+    uvec2 third = unpack32(BVH_SCRATCH_HALVES(s)[word / 2u + 2u]);
+    lower = uintBitsToFloat(uvec3(first, second.x));
+    upper = uintBitsToFloat(uvec3(second.y, third));
+}
+
 #else
 
 POOL_VECTORS(bvh, node_vectors, 1, uvec4, 16)
@@ -60,6 +71,12 @@ void bvh_load_record(BvhRef s, uint record, out uvec2 words[5]) {
     [[unroll]] for (uint word = 0u; word < 5u; word++) {
         words[word] = BVH_RECORD_VECTORS(s)[5u * record + word];
     }
+}
+
+// Reads six words of the scratch pool from an even place on, as a box; all of it must be within the pool.
+void bvh_load_box(BvhRef s, uint word, out vec3 lower, out vec3 upper) {
+    lower = uintBitsToFloat(uvec3(BVH_POOL(s, scratch)[word], BVH_POOL(s, scratch)[word + 1u], BVH_POOL(s, scratch)[word + 2u]));
+    upper = uintBitsToFloat(uvec3(BVH_POOL(s, scratch)[word + 3u], BVH_POOL(s, scratch)[word + 4u], BVH_POOL(s, scratch)[word + 5u]));
 }
 
 #endif

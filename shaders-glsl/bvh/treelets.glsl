@@ -1,5 +1,4 @@
-// Sizes and classes of subtrees, and chains of nodes of one class, along which treelets are restructured and
-// boxes are refitted.
+// Sizes and classes of subtrees, and chains of nodes of one class, along which treelets are restructured.
 // Reads: header, scratch (sizes). Writes: nothing.
 // Source: none; docs/systems/bvh.md, "Treelets".
 // The size of a node is the number of records below it. A class holds sizes from a number to less than twice

@@ -12,7 +12,7 @@ layout(constant_id = 80) const uint BVH_CHILDREN = 2u;
 // Maximum number of triangles of a leaf that is made of clusters. With 1 each triangle is a leaf.
 layout(constant_id = 85) const uint BVH_CLUSTER_LEAF = 1u;
 
-// State and sizes of one tree. Shared, 96 bytes.
+// State and sizes of one tree. Shared, 112 bytes.
 struct BvhHeader {
     uint status;            // STATUS_*; without STATUS_COMPLETE traces answer "not ready"
     uint root;              // child reference of the whole tree; BVH_NONE without triangles
@@ -21,11 +21,9 @@ struct BvhHeader {
     uint record_capacity;   // triangle records that the pool holds
     uint scratch_capacity;  // words that the scratch pool holds
     uint order_offset;      // word of the scratch pool with the primitive of the first record
-    uint order_stride;      // words from one primitive to the next; 0 where the records keep their order
+    uint order_stride;      // words from one primitive to the next; 0 where the tree is kept
     vec3 lower;             // lower corner of the geometry, metres relative to the frame origin
-    // number that the host gave to the order of the triangles, by which it knows whether the order may be
-    // kept
-    uint order;
+    uint tree;              // number of the tree, by which the host knows whether it may be kept
     vec3 upper;             // upper corner of the geometry
     uint corrupted;         // invalid indices that traces and build passes have met
     uvec2 nodes_address;    // device address of the nodes; zero with descriptors, as the other addresses
@@ -35,6 +33,12 @@ struct BvhHeader {
     // nodes of two children that the pool holds: those of the tree, or those from which nodes of four are
     // made
     uint pair_capacity;
+    // cost of a tree that later builds may keep or that is kept, in units of 2^-32, low word first: see
+    // cost.glsl
+    uvec2 cost;
+    // levels of nodes of such a tree; in builds that keep the tree the levels that they compute one by one
+    uint level_count;
+    uint spare;             // zero
 };
 
 // Inner node of a tree with two children per node. A node holds the boxes of its children, so that one read

@@ -7,8 +7,11 @@ use rasray_shaders_glsl::constants::bvh::{
     BVH_CLUSTERS, BVH_DIGITS, BVH_TREELET_CLASSES, BVH_TREELET_ROUNDS,
 };
 
-use crate::layout::{cluster_levels, digit_counts, most_nodes, sort_chunks, treelet_classes, union_levels};
-use crate::{Builder, Children, Chunks, Config, Pool};
+use crate::kept::Made;
+use crate::layout::{
+    cluster_levels, digit_counts, level_invocations, most_nodes, sort_chunks, treelet_classes, union_levels,
+};
+use crate::{Builder, Children, Chunks, Config, Loads, Pool};
 
 /// Pipelines of the build.
 #[derive(Debug)]
@@ -34,10 +37,10 @@ struct DevicePipelines {
     tree: TreePipelines,
     /// Passes that restructure treelets of the tree by Morton codes.
     treelets: Option<TreeletPipelines>,
-    /// Passes of later builds, which keep the tree of the first.
-    refit: Option<RefitPipelines>,
     /// Passes that make nodes of four children from nodes of two.
     fours: Option<FourPipelines>,
+    /// Passes of trees that later builds keep.
+    refit: Option<RefitPipelines>,
 }
 
 /// Pipelines that make the nodes of two children over the records.
@@ -58,8 +61,13 @@ struct TreeletPipelines {
 
 #[derive(Debug)]
 struct RefitPipelines {
-    small: ComputePipeline,
-    chains: ComputePipeline,
+    levels: ComputePipeline,
+    places: ComputePipeline,
+    listed: ComputePipeline,
+    refit: ComputePipeline,
+    /// Pass of the last level, where an invocation may read boxes that it wrote. It reads words of 32 bits as
+    /// it writes them; in other words it might not see them.
+    refit_last: ComputePipeline,
 }
 
 #[derive(Debug)]
@@ -79,7 +87,7 @@ impl Build {
             }
         };
         let records = pipelines.compute("build_6_records")?;
-        Ok(Self { of_builder, records, status: pipelines.compute("build_17_status")? })
+        Ok(Self { of_builder, records, status: pipelines.compute("build_20_status")? })
     }
 
     /// Records the pass that writes the boxes of triangles for a build on the host. The host has written the
@@ -93,19 +101,27 @@ impl Build {
         recorder.end_pass();
     }
 
-    /// Records all passes of a build or, if the tree is kept, those that find its boxes anew. The host has
+    /// Records all passes of a build or, if a tree is kept, those that compute its boxes anew. The host has
     /// written the header.
-    pub(crate) fn record(&self, recorder: &mut Recorder<'_>, target: BuildTarget<'_>, keeps_tree: bool) {
+    pub(crate) fn record(&self, recorder: &mut Recorder<'_>, target: BuildTarget<'_>, kept: Option<Made>) {
         record_header(recorder, target);
-        let triangles = target.geometry.triangle_count();
-        if let (OfBuilder::Device(pipelines), false) = (&self.of_builder, keeps_tree) {
-            pipelines.record_order(recorder, target);
+        match (&self.of_builder, kept) {
+            (OfBuilder::Sah { .. }, _) => self.record_records(recorder, target),
+            (OfBuilder::Device(pipelines), Some(made)) => {
+                self.record_records(recorder, target);
+                pipelines.record_kept(recorder, target, made);
+            }
+            (OfBuilder::Device(pipelines), None) => {
+                pipelines.record_order(recorder, target);
+                self.record_records(recorder, target);
+                pipelines.record_tree(recorder, target);
+            }
         }
-        pass(recorder, target, "bvh/build_6_records", &self.records, 0, triangles);
-        if let OfBuilder::Device(pipelines) = &self.of_builder {
-            pipelines.record_tree(recorder, target, keeps_tree);
-        }
-        target.status_pass(recorder, "bvh/build_17_status", &self.status);
+        target.status_pass(recorder, "bvh/build_20_status", &self.status);
+    }
+
+    fn record_records(&self, recorder: &mut Recorder<'_>, target: BuildTarget<'_>) {
+        pass(recorder, target, "bvh/build_6_records", &self.records, 0, target.geometry.triangle_count());
     }
 }
 
@@ -117,9 +133,8 @@ impl DevicePipelines {
             Chunks::Serial => ("build_3_counts", "build_5_scatter"),
             Chunks::Shared => ("build_3_counts.shared", "build_5_scatter.shared"),
         };
-        let restructures = matches!(config.builder, Builder::Trbvh | Builder::Refit);
-        let treelets = restructures.then(|| TreeletPipelines::new(pipelines));
-        let refit = (config.builder == Builder::Refit).then(|| RefitPipelines::new(pipelines));
+        let treelets = (config.builder == Builder::Trbvh).then(|| TreeletPipelines::new(pipelines));
+        let refit = (config.builder == Builder::Refit).then(|| RefitPipelines::new(pipelines, config.loads));
         let fours = (config.made_children() == Children::Four).then(|| FourPipelines::new(pipelines));
         Ok(Self {
             codes: compute("build_2_codes")?,
@@ -129,8 +144,8 @@ impl DevicePipelines {
             scatter: compute(scatter)?,
             tree: TreePipelines::new(pipelines, config.builder, chunks)?,
             treelets: treelets.transpose()?,
-            refit: refit.transpose()?,
             fours: fours.transpose()?,
+            refit: refit.transpose()?,
         })
     }
 
@@ -151,19 +166,24 @@ impl DevicePipelines {
         }
     }
 
-    /// Records the passes that make nodes over the records or, if the tree is kept, only their boxes.
-    fn record_tree(&self, recorder: &mut Recorder<'_>, target: BuildTarget<'_>, keeps_tree: bool) {
-        match (&self.treelets, &self.refit) {
-            (Some(treelets), Some(refit)) if keeps_tree => refit.record(recorder, target, treelets),
-            (treelets, _) => {
-                self.tree.record(recorder, target);
-                if let Some(treelets) = treelets {
-                    treelets.record(recorder, target);
-                }
-            }
+    /// Records the passes that make nodes over the records.
+    fn record_tree(&self, recorder: &mut Recorder<'_>, target: BuildTarget<'_>) {
+        self.tree.record(recorder, target);
+        if let Some(treelets) = &self.treelets {
+            treelets.record(recorder, target);
         }
         if let Some(fours) = &self.fours {
-            fours.record(recorder, target, &self.scan);
+            fours.record(recorder, target, &self.scan, self.refit.is_some());
+        }
+        if let Some(refit) = &self.refit {
+            refit.record_made(recorder, target);
+        }
+    }
+
+    /// Records the passes that compute records and boxes of a kept tree.
+    fn record_kept(&self, recorder: &mut Recorder<'_>, target: BuildTarget<'_>, made: Made) {
+        if let Some(refit) = &self.refit {
+            refit.record_kept(recorder, target, made);
         }
     }
 }
@@ -171,7 +191,7 @@ impl DevicePipelines {
 impl TreePipelines {
     fn new(pipelines: &BuildPipelines<'_>, builder: Builder, chunks: Chunks) -> Result<Self, AdsError> {
         let compute = |name| pipelines.compute(name);
-        Ok(if builder == Builder::Ploc {
+        Ok(if builder.merges_clusters() {
             let name = match chunks {
                 Chunks::Serial => "build_8_topology.clusters",
                 Chunks::Shared => "build_8_topology.clusters.shared",
@@ -224,44 +244,47 @@ impl TreeletPipelines {
         let counts = BVH_TREELET_ROUNDS * BVH_TREELET_CLASSES;
         pass(recorder, target, "bvh/build_10_sizes", &self.sizes, 0, triangles.max(counts));
         for round in 0..BVH_TREELET_ROUNDS {
-            let step = |class| BVH_TREELET_CLASSES * round + class;
-            self.record_round(recorder, target, ("bvh/build_12_treelets", &self.treelets), round, step);
-        }
-    }
-
-    /// Records a round over the classes from `first` on, with one dispatch of the labelled pass for each
-    /// class.
-    fn record_round(
-        &self,
-        recorder: &mut Recorder<'_>,
-        target: BuildTarget<'_>,
-        (label, of_chain): (&str, &ComputePipeline),
-        first: u32,
-        step: impl Fn(u32) -> u32,
-    ) {
-        let triangles = target.geometry.triangle_count();
-        for (class, chains) in treelet_classes(triangles, first) {
-            if class == first {
-                pass(recorder, target, "bvh/build_11_chains", &self.chains, first, triangles);
+            for (class, chains) in treelet_classes(triangles, round) {
+                if class == round {
+                    pass(recorder, target, "bvh/build_11_chains", &self.chains, round, triangles);
+                }
+                let step = BVH_TREELET_CLASSES * round + class;
+                pass(recorder, target, "bvh/build_12_treelets", &self.treelets, step, chains);
             }
-            pass(recorder, target, label, of_chain, step(class), chains);
         }
     }
 }
 
 impl RefitPipelines {
-    fn new(pipelines: &BuildPipelines<'_>) -> Result<Self, AdsError> {
+    fn new(pipelines: &BuildPipelines<'_>, loads: Option<Loads>) -> Result<Self, AdsError> {
+        let refit = match loads {
+            Some(Loads::Bits64) => "build_9_refit.words64",
+            None | Some(Loads::Bits32) => "build_9_refit",
+        };
         Ok(Self {
-            small: pipelines.compute("build_9_refit")?,
-            chains: pipelines.compute("build_9_refit.chains")?,
+            levels: pipelines.compute("build_17_levels")?,
+            places: pipelines.compute("build_18_places")?,
+            listed: pipelines.compute("build_19_listed")?,
+            refit: pipelines.compute(refit)?,
+            refit_last: pipelines.compute("build_9_refit")?,
         })
     }
 
-    /// Records the passes that find the boxes of the nodes of two children, from the leaves up.
-    fn record(&self, recorder: &mut Recorder<'_>, target: BuildTarget<'_>, treelets: &TreeletPipelines) {
-        let items = target.geometry.triangle_count().max(BVH_TREELET_CLASSES);
-        pass(recorder, target, "bvh/build_9_refit", &self.small, 0, items);
-        treelets.record_round(recorder, target, ("bvh/build_9_refit", &self.chains), 0, |class| class);
+    /// Records the passes that list the nodes of a new tree by level.
+    fn record_made(&self, recorder: &mut Recorder<'_>, target: BuildTarget<'_>) {
+        let nodes = most_nodes(Children::Four, target.geometry.triangle_count().into()) as u32;
+        pass(recorder, target, "bvh/build_17_levels", &self.levels, 0, nodes);
+        pass(recorder, target, "bvh/build_18_places", &self.places, 0, nodes);
+        pass(recorder, target, "bvh/build_19_listed", &self.listed, 0, nodes + 1);
+    }
+
+    /// Records the pass of each level of the kept tree, from the leaves up.
+    fn record_kept(&self, recorder: &mut Recorder<'_>, target: BuildTarget<'_>, made: Made) {
+        for level in 0..made.levels {
+            let pipeline = if level + 1 == made.levels { &self.refit_last } else { &self.refit };
+            let nodes = level_invocations(level, made.nodes);
+            pass(recorder, target, "bvh/build_9_refit", pipeline, level, nodes);
+        }
     }
 }
 
@@ -276,15 +299,15 @@ impl FourPipelines {
     }
 
     /// Records the passes that choose the nodes of two children that become nodes of four, number them, and
-    /// make the nodes of four.
-    fn record(&self, recorder: &mut Recorder<'_>, target: BuildTarget<'_>, scan: &Scan) {
+    /// make the nodes of four. If later builds may keep the tree, the header gets its cost.
+    fn record(&self, recorder: &mut Recorder<'_>, target: BuildTarget<'_>, scan: &Scan, may_keep: bool) {
         let nodes = target.geometry.triangle_count().saturating_sub(1);
         pass(recorder, target, "bvh/build_13_openings", &self.openings, 0, nodes);
         pass(recorder, target, "bvh/build_14_tops", &self.tops, 0, nodes);
         scan.record(recorder, target, "bvh/build_4_scan", nodes.into(), BVH_DIGITS, Access::COMPUTE);
-        pass(recorder, target, "bvh/build_15_list", &self.list, 0, nodes);
+        pass(recorder, target, "bvh/build_15_list", &self.list, may_keep.into(), nodes);
         let most = most_nodes(Children::Four, target.geometry.triangle_count().into()) as u32;
-        pass(recorder, target, "bvh/build_16_fours", &self.fours, 0, most);
+        pass(recorder, target, "bvh/build_16_fours", &self.fours, may_keep.into(), most);
     }
 }
 

@@ -21,13 +21,20 @@ pub enum Builder {
     /// Build on the device that makes the tree of [`Builder::Lbvh`] and then restructures treelets of it by
     /// surface area: slower to build, faster to trace.
     Trbvh,
-    /// Build on the device that makes the first tree as [`Builder::Trbvh`], and afterwards finds only its
-    /// boxes anew. Fastest to build, and slower to trace the farther the triangles have moved since the first
-    /// build.
+    /// Build on the device that makes a tree as [`Builder::Ploc`] with four children per node, and keeps it
+    /// as long as the cost by surface area stays near that of the new tree: then a build computes only boxes
+    /// anew. The fastest to build where triangles move smoothly.
     Refit,
 }
 
 words! { Builder { Sah "sah", Lbvh "lbvh", Ploc "ploc", Trbvh "trbvh", Refit "refit" } }
+
+impl Builder {
+    /// Returns true if the tree is made by merging clusters.
+    pub(crate) fn merges_clusters(self) -> bool {
+        matches!(self, Self::Ploc | Self::Refit)
+    }
+}
 
 /// Maximum number of children of a node.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -87,12 +94,12 @@ words! { Loads { Bits32 "32", Bits64 "64" } }
 pub struct Config {
     /// Builder of the tree.
     pub builder: Builder,
-    /// Maximum number of children per node. If absent, two with [`Builder::Lbvh`] and [`Builder::Refit`],
-    /// whose builds should be quick, and four with the other builders.
+    /// Maximum number of children per node. If absent, two with [`Builder::Lbvh`], whose builds should be
+    /// quick, and four with the other builders. [`Builder::Refit`] has four.
     pub children: Option<Children>,
     /// Maximum number of triangles per leaf, 1 to 16. If absent, 4 with [`Builder::Sah`] and, with four
-    /// children per node, with [`Builder::Ploc`], whose heuristic may use fewer; 1 with the other builders,
-    /// whose leaves hold one triangle.
+    /// children per node, with [`Builder::Ploc`] and [`Builder::Refit`], whose heuristic may use fewer; 1
+    /// with the other builders, whose leaves hold one triangle.
     pub leaf: Option<u32>,
     /// Way in which the device works on chunks. If absent, [`Chunks::Serial`] on software devices and
     /// [`Chunks::Shared`] on others.
@@ -129,8 +136,8 @@ impl Config {
     /// Returns the number of children per node: the chosen one, or the builder's default.
     pub fn made_children(&self) -> Children {
         self.children.unwrap_or(match self.builder {
-            Builder::Sah | Builder::Ploc | Builder::Trbvh => Children::Four,
-            Builder::Lbvh | Builder::Refit => Children::Two,
+            Builder::Sah | Builder::Ploc | Builder::Trbvh | Builder::Refit => Children::Four,
+            Builder::Lbvh => Children::Two,
         })
     }
 
@@ -151,8 +158,8 @@ impl Config {
     fn chooses_leaves(&self) -> bool {
         match self.builder {
             Builder::Sah => true,
-            Builder::Ploc => self.made_children() == Children::Four,
-            Builder::Lbvh | Builder::Trbvh | Builder::Refit => false,
+            Builder::Ploc | Builder::Refit => self.made_children() == Children::Four,
+            Builder::Lbvh | Builder::Trbvh => false,
         }
     }
 
@@ -161,6 +168,14 @@ impl Config {
     /// # Errors
     /// The first option that is out of range, or that the builder cannot follow.
     pub fn validate(&self) -> Result<(), AdsError> {
+        if self.builder == Builder::Refit {
+            check_range(
+                "children",
+                self.made_children().number(),
+                4..=4,
+                "4 children per node with builder `refit`",
+            )?;
+        }
         let leaf = self.made_leaf();
         if self.chooses_leaves() {
             check_range("leaf", leaf, 1..=BVH_LEAF_LIMIT, "1 to 16 triangles per leaf")?;

@@ -17,6 +17,10 @@ pub(crate) const NAME: &str = "bvh";
 /// the leaves.
 pub(crate) const BOX_WORDS: u64 = 6;
 
+/// Words behind the clusters of a tree that later builds may keep: with them the begins of levels fit
+/// (levels.glsl).
+const LEVELS_WORDS: u64 = 2;
+
 // Parts of the scratch pool are used again. The numbers of chains take the place of the counts of a chunk's
 // digits. The sizes and chains of all classes, fewer than two words per triangle, take the place of the keys,
 // which had four. The list of nodes of four takes the place of all counts.
@@ -34,6 +38,7 @@ fn scratch_words(builder: Builder, triangles: u64) -> u64 {
             let counts = digit_counts(triangles);
             let boxes = match builder {
                 Builder::Ploc => u64::from(BVH_CLUSTER_WORDS) * triangles,
+                Builder::Refit => u64::from(BVH_CLUSTER_WORDS) * triangles + LEVELS_WORDS,
                 _ => 6 * unions(triangles),
             };
             4 * triangles + counts + Scan::sums(counts) + boxes
@@ -90,6 +95,12 @@ pub(crate) fn most_nodes(children: Children, triangles: u64) -> u64 {
     }
 }
 
+/// Returns the number of invocations that compute the boxes of a level of a kept tree with this many nodes of
+/// four children: about as many as such a level has nodes.
+pub(crate) fn level_invocations(level: u32, nodes: u32) -> u32 {
+    nodes.checked_shr(level).unwrap_or(0).max(1)
+}
+
 /// Returns the number of nodes of two children from which the device makes nodes of four. They lie behind the
 /// tree in the pool of nodes, and are as large.
 pub(crate) fn pair_elements(config: &Config, triangles: u64) -> u64 {
@@ -126,12 +137,12 @@ pub fn plan(config: &Config, triangles: u64) -> Result<Sizes, AdsError> {
 /// Bytes of a tree by the formula of `docs/systems/bvh.md`, for counted nodes and triangles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct FormulaBytes {
-    /// Bytes that traces read: header 96, 64 per node, 40 per triangle.
+    /// Bytes that traces read: header 112, 64 per node, 40 per triangle.
     pub traced: u64,
     /// Bytes that only the build uses. With [`Builder::Sah`] 28 per triangle. With the others 16 per
     /// triangle, 1024 for every 256 triangles, 4 for every 1024 triangles, and 24 per union of four boxes
-    /// (including unions of unions), each rounded up, or with [`Builder::Ploc`] in place of the unions 28 per
-    /// triangle; and for nodes of four 64 per triangle after the first.
+    /// (including unions of unions), each rounded up, or with [`Builder::Ploc`] and [`Builder::Refit`] in
+    /// place of the unions 28 per triangle; and for nodes of four 64 per triangle after the first.
     pub scratch: u64,
 }
 
@@ -153,7 +164,11 @@ pub fn formula_bytes(config: &Config, nodes: u64, triangles: u64) -> FormulaByte
                 level = level.div_ceil(4);
                 unions += level;
             }
-            let boxes = if config.builder == Builder::Ploc { 28 * triangles } else { 24 * unions };
+            let boxes = match config.builder {
+                Builder::Ploc => 28 * triangles,
+                Builder::Refit => 28 * triangles + 8,
+                _ => 24 * unions,
+            };
             let chunks = triangles.div_ceil(256);
             let pairs = match config.made_children() {
                 Children::Four => 64 * (triangles.max(1) - 1),
@@ -162,7 +177,7 @@ pub fn formula_bytes(config: &Config, nodes: u64, triangles: u64) -> FormulaByte
             pairs + 16 * triangles + 1024 * chunks + 4 * chunks.div_ceil(4) + boxes
         }
     };
-    FormulaBytes { traced: 96 + 64 * nodes + 40 * triangles, scratch }
+    FormulaBytes { traced: 112 + 64 * nodes + 40 * triangles, scratch }
 }
 
 #[cfg(test)]
@@ -176,7 +191,7 @@ mod tests {
         let numbers = |config| {
             [Children::Two, Children::Four].map(|children| Config { children: Some(children), ..config })
         };
-        for config in kinds.into_iter().flat_map(numbers) {
+        for config in kinds.into_iter().flat_map(numbers).filter(|config| config.validate().is_ok()) {
             for triangles in [1_u64, 2, 255, 256, 257, 12_345, 300_000] {
                 let sizes = plan(&config, triangles).expect("options are in range");
                 let nodes = most_nodes(config.made_children(), triangles);
@@ -220,7 +235,10 @@ mod tests {
         assert!(refused(Config { leaf: Some(17), ..config }).contains("leaf is 17"));
         assert!(refused(Config { leaf: Some(0), ..config }).contains("leaf is 0"));
         assert!(refused(Config { work_budget: Some(0), ..config }).contains("work budget"));
-        for builder in [Builder::Lbvh, Builder::Ploc, Builder::Trbvh, Builder::Refit] {
+        let of_two = Config { children: Some(Children::Two), ..Config::new(Builder::Refit) };
+        assert!(refused(of_two).contains("children is 2"));
+        assert!(plan(&Config::new(Builder::Refit), 1).is_ok());
+        for builder in [Builder::Lbvh, Builder::Ploc, Builder::Trbvh] {
             let config = Config::new(builder);
             // The options that such a tree has may also be given.
             assert!(plan(&Config { children: Some(Children::Two), leaf: Some(1), ..config }, 1).is_ok());

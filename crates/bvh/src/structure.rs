@@ -9,13 +9,13 @@ use rasray_ads::{
 };
 use rasray_gpu::{BindingSet, Device, Feature, Recorder, Requirements};
 use rasray_shaders_glsl::constant_ids::bvh::{BVH_CHILDREN, BVH_CLUSTER_LEAF};
-use rasray_shaders_glsl::constants::bvh::{BVH_LEAF, BVH_NONE};
+use rasray_shaders_glsl::constants::bvh::BVH_NONE;
 
 use crate::build::Build;
 use crate::four::with_four_children;
 use crate::host::{self, Box3};
+use crate::kept::{KeptTrees, Made};
 use crate::layout::{BOX_WORDS, NAME, formula_bytes, pair_elements, plan};
-use crate::order::Order;
 use crate::{
     Builder, Children, Config, Contents, Header, Loads, Node, NodeOfFour, Pool, Record, well_formed,
 };
@@ -29,10 +29,10 @@ pub struct Passes {
     build: Build,
     /// Tree that the host has made for the next build.
     prepared: Option<Prepared>,
-    /// Order of the triangles that later builds may keep.
-    order: Order,
-    /// True if the build recorded next keeps the tree over this order.
-    keeps_tree: bool,
+    /// Decides which builds keep a tree.
+    trees: KeptTrees,
+    /// Tree that the build recorded next keeps.
+    kept: Option<Made>,
 }
 
 /// Demand of a build: the number of elements that it needs in each pool.
@@ -61,17 +61,6 @@ struct Prepared {
 /// The device sets the final root, number of triangles and number of nodes of four.
 fn on_device(triangles: u32) -> Prepared {
     Prepared { root: BVH_NONE, nodes: triangles.saturating_sub(1), triangles }
-}
-
-/// Returns the tree of [`on_device`] if the order is kept. The number of triangles is the one that the order
-/// was made for.
-fn refitted(triangles: u32) -> Prepared {
-    let root = match triangles {
-        0 => BVH_NONE,
-        1 => BVH_LEAF,
-        _ => 0,
-    };
-    Prepared { root, ..on_device(triangles) }
 }
 
 /// Returns true if the capacity suffices for the whole tree. There is no partial tree: a build that does not
@@ -178,7 +167,7 @@ impl Design for Passes {
     }
 
     fn constants(config: &Config) -> Vec<(u32, u32)> {
-        let cluster_leaf = if config.builder == Builder::Ploc { config.made_leaf() } else { 1 };
+        let cluster_leaf = if config.builder.merges_clusters() { config.made_leaf() } else { 1 };
         vec![(BVH_CHILDREN, config.made_children().number()), (BVH_CLUSTER_LEAF, cluster_leaf)]
     }
 
@@ -205,8 +194,8 @@ impl Design for Passes {
         Ok(Self {
             build: Build::new(pipelines, config)?,
             prepared: None,
-            order: Order::default(),
-            keeps_tree: false,
+            trees: KeptTrees::default(),
+            kept: None,
         })
     }
 
@@ -251,37 +240,40 @@ impl Design for Passes {
 
     fn forget(&mut self) {
         self.prepared = None;
-        self.order.forget();
+        self.trees.forget();
     }
 
     fn completed(&self, header: &Header) {
-        self.order.see(header.order);
+        self.trees.see(header);
     }
 
     fn overwritten(&self) {
-        self.order.forget();
+        self.trees.forget();
     }
 
     fn first_header(&mut self, parts: &Parts<Config>, _viewpoint: Viewpoint) -> Result<Header, AdsError> {
         let extent = parts.extent();
         let triangles = extent.triangle_count;
         // A number of triangles that the device counts may differ in each build.
-        let is_fixed = parts.geometry.desc().count.is_none();
-        self.keeps_tree = parts.config.builder == Builder::Refit && is_fixed && self.order.is_kept();
+        let is_fixed = parts.geometry.desc().count.is_none() && triangles > 0;
+        self.kept = if parts.config.builder == Builder::Refit && is_fixed { self.trees.next() } else { None };
         let prepared = match parts.config.builder {
             // The triangles may move after a build, so a tree serves one build only.
             Builder::Sah => self.prepared.take().ok_or(AdsError::NotPrepared { structure: NAME })?,
-            Builder::Refit if self.keeps_tree => refitted(triangles),
             Builder::Lbvh | Builder::Ploc | Builder::Trbvh | Builder::Refit => on_device(triangles),
         };
         let first = first_header(&parts.config, parts.pools.sizes(), &extent, prepared);
-        let header = Header { order: self.order.number(), ..first };
-        // Records keep their primitive indices, since sizes now occupy the rest of the first build's scratch.
-        Ok(if self.keeps_tree { Header { order_stride: 0, ..header } } else { header })
+        let header = Header { tree: self.trees.number(), ..first };
+        Ok(match self.kept {
+            // The device sets the root and the number of nodes to those of the tree that it holds. Records
+            // keep their triangles.
+            Some(made) => Header { order_stride: 0, level_count: made.levels, node_count: 0, ..header },
+            None => header,
+        })
     }
 
     fn record_passes(&self, recorder: &mut Recorder<'_>, parts: &Parts<Config>, scene: Option<&BindingSet>) {
-        self.build.record(recorder, parts.target(scene), self.keeps_tree);
+        self.build.record(recorder, parts.target(scene), self.kept);
     }
 
     fn asked(&self, parts: &Parts<Config>, header: &Header) -> Demand {

@@ -18,10 +18,6 @@ const FASTEST: &str = "the fastest exact structure";
 /// builds one.
 const RAYS_PER_TRIANGLE: u64 = 1000;
 
-/// Number of triangles per ray and build above which, on all measured scenes and both drivers, the tree by
-/// Morton codes is ahead of the others.
-const TRIANGLES_PER_RAY: u64 = 10;
-
 /// System that is named by the user, or left to the job.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SystemRequest {
@@ -64,21 +60,20 @@ fn is_fastest(system: &System) -> bool {
 }
 
 impl SystemConfig {
-    /// Adapts a structure that the job chose to frames, each of which builds it for at most `rays` rays: the
-    /// fewer rays per triangle, the quicker the build that it takes. The choice does not depend on the
-    /// device, so that all shares of a job agree.
+    /// Adapts a structure that the job chose to frames, each of which builds it for at most `rays` rays: a
+    /// tree that later frames keep while it stays good, or with many rays per triangle the tree that is the
+    /// fastest to trace. The choice does not depend on the device, so that all shares of a job agree.
     #[must_use]
     pub fn rebuilt_for(mut self, rays: u64, triangles: u64) -> Self {
         let is_free = self.chosen.is_some()
             && ["builder", "leaf", "children"].iter().all(|o| self.options.get(o).is_none());
         if is_free && is_fastest(self.system) {
             let limit = format!("{RAYS_PER_TRIANGLE} rays per triangle");
-            let reason = if rays.saturating_mul(TRIANGLES_PER_RAY) < triangles {
-                self.options.set("builder", "lbvh");
-                format!("the quickest build, for frames of over {TRIANGLES_PER_RAY} triangles per ray")
-            } else if rays < RAYS_PER_TRIANGLE.saturating_mul(triangles) {
-                self.options.set("builder", "ploc");
-                format!("a tree built on the device, for frames of fewer than {limit}")
+            let reason = if rays < RAYS_PER_TRIANGLE.saturating_mul(triangles) {
+                self.options.set("builder", "refit");
+                format!(
+                    "a tree of the device that is kept while it stays good, for frames of fewer than {limit}"
+                )
             } else {
                 format!("frames of {limit} and more repay a tree by surface area")
             };
@@ -125,11 +120,11 @@ mod tests {
         let builder = |config: SystemConfig| config.options.text("builder");
         let free = chosen(&OptionValues::default());
         assert_eq!(builder(free.clone()), None);
-        assert_eq!(builder(free.clone().rebuilt_for(999_999, 1000)).as_deref(), Some("ploc"));
+        assert_eq!(builder(free.clone().rebuilt_for(999_999, 1000)).as_deref(), Some("refit"));
         assert_eq!(builder(free.clone().rebuilt_for(1_000_000, 1000)), None);
         assert_eq!(builder(free.clone().rebuilt_for(u64::MAX, u64::MAX)), None);
-        assert_eq!(builder(free.clone().rebuilt_for(100, 1000)).as_deref(), Some("ploc"));
-        assert_eq!(builder(free.rebuilt_for(99, 1000)).as_deref(), Some("lbvh"));
+        assert_eq!(builder(free.clone().rebuilt_for(100, 1000)).as_deref(), Some("refit"));
+        assert_eq!(builder(free.rebuilt_for(0, 1000)).as_deref(), Some("refit"));
         let given = chosen(&OptionValues::default().with("builder", "sah"));
         assert_eq!(builder(given.rebuilt_for(1, 1000)).as_deref(), Some("sah"));
         let bricks = chosen(&OptionValues::default().with("corners", "on"));

@@ -370,7 +370,7 @@ pub const OPTIONS: &[StructureOption] = &[
             ("trbvh", "The tree of lbvh, then its treelets are restructured by surface area, on the device"),
             (
                 "refit",
-                "The tree of trbvh, of which later builds while the triangles stay find only the boxes anew",
+                "The tree of ploc with four children per node, kept while it stays good: then builds only compute boxes",
             ),
             ("raster", "Cells, by drawing"),
             ("binning", "Cells, by computing"),
@@ -392,7 +392,7 @@ pub const OPTIONS: &[StructureOption] = &[
         Speed,
         Same,
         &[("2", "Two"), ("4", "Four, tested together")],
-        "Children per node of the tree: 2 with `builder` lbvh and refit unless given, 4 with the others",
+        "Children per node of the tree: 2 with `builder` lbvh unless given, 4 with the others",
     ),
     row(
         "leaf",
@@ -400,7 +400,7 @@ pub const OPTIONS: &[StructureOption] = &[
         Same,
         Values::Whole(1, 16),
         &["1", "16"],
-        "Maximum triangles per leaf: 4 with `builder` sah unless given, and with ploc where nodes have four children; 1 with the others",
+        "Maximum triangles per leaf: 4 with `builder` sah unless given, and with ploc and refit where nodes have four children; 1 with the others",
     ),
     switch("sort", Speed, Same, "Sort the fragments of a cell by depth"),
     switch("skip", Speed, SameWithoutLoss, "Skip empty space"),

@@ -14,7 +14,6 @@ pub(super) const ROWS: &[Row] = &[
     Row::exact("bvh-trbvh-two", "bvh", &[("builder", "trbvh"), ("children", "2")], Tier::Full, Cases::All),
     // The first build, on every case, is by Morton codes; only moving scenes have refitted builds.
     Row::exact("bvh-refit", "bvh", &[("builder", "refit")], Tier::Full, Cases::All),
-    Row::exact("bvh-refit-four", "bvh", &[("builder", "refit"), ("children", "4")], Tier::Full, Cases::All),
     Row::exact("grid", "grid", &[], Tier::Quick, Cases::All),
     Row::exact("driver-rt", "driver-rt", &[], Tier::Quick, Cases::All),
     Row::exact("driver-rt-build", "driver-rt", &[("goal", "build")], Tier::Full, Cases::All),

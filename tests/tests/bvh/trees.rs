@@ -69,11 +69,12 @@ pub(crate) fn checked(contents: &Contents, triangles: &[Triangle], what: &str) -
     shape
 }
 
-/// Every builder with every number of children.
+/// Every builder with every number of children that it can make.
 fn kinds() -> impl Iterator<Item = Config> {
     let builders =
         [Builder::Sah, Builder::Lbvh, Builder::Ploc, Builder::Trbvh, Builder::Refit].map(Config::new);
-    builders.into_iter().flat_map(|config| [of_two(config), of_four(config)])
+    let kinds = builders.into_iter().flat_map(|config| [of_two(config), of_four(config)]);
+    kinds.filter(|config| config.validate().is_ok())
 }
 
 /// `config` with two children per node.
