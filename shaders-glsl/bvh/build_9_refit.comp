@@ -21,7 +21,8 @@ float load_child(uint reference, float per_metre, out vec3 lower, out vec3 upper
     uint others = is_leaf ? bvh_leaf_count(reference) - 1u : 0u;
     lower = vec3(0.0);
     upper = vec3(0.0);
-    if (word + 6u * others + 6u > BVH_HEADER(build.structure).scratch_capacity) {
+    uint capacity = BVH_HEADER(build.structure).scratch_capacity;
+    if (word >= capacity || capacity - word < 6u * (others + 1u)) {
         return 0.0;
     }
     bvh_load_box(build.structure, word, lower, upper);

@@ -14,7 +14,7 @@
 //! | [`Builder::Lbvh`] | triangles sorted along a Morton curve, on the device: Karras, "Maximizing parallelism in the construction of BVHs, octrees, and k-d trees", HPG 2012 |
 //! | [`Builder::Ploc`] | clusters in that order merged by surface area: Meister and Bittner, "Parallel locally-ordered clustering for bounding volume hierarchy construction", TVCG 24(3), 2018 |
 //! | [`Builder::Trbvh`] | treelets of the tree by Morton codes restructured by surface area: Karras and Aila, "Fast parallel construction of high-quality bounding volume hierarchies", HPG 2013 |
-//! | [`Builder::Refit`] | the tree of [`Builder::Trbvh`]; later builds only find its boxes anew |
+//! | [`Builder::Refit`] | the tree of [`Builder::Ploc`], kept while it stays good: then builds only compute its boxes |
 //!
 //! `docs/systems/bvh.md` has passes, bytes, options, limits and departures.
 
