@@ -25,8 +25,8 @@ const MOST_LEVELS: u32 = 64;
 /// headers. Once the host has read that a build which made such a tree was complete, builds recorded later
 /// may keep it. A build that is merely recorded does not count: it may never be submitted, or be incomplete.
 ///
-/// A tree is given up when the growth of its cost has added up to that of a new tree. So a tree that is much
-/// worse than when it was made is given up at once, one that is a little worse after many builds. While
+/// A tree is given up when the growth of its cost has added up to what a new tree costs. So a tree that is
+/// much worse than when it was made is given up at once, one that is a little worse after many builds. While
 /// triangles rest, it is kept. If a tree is given up soon after it was made, a pause follows in which none is
 /// kept. The pause doubles each time, so that triangles which move without order cost few traces of bad
 /// trees.
@@ -51,8 +51,8 @@ struct State {
 /// Tree that may be kept.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Made {
-    /// Number of levels of nodes, 1 to [`MOST_LEVELS`]. With several frames in flight, and from there on, the
-    /// tree in the pools may have more.
+    /// Number of levels of nodes, 1 to [`MOST_LEVELS`]. The tree in the pools may have more: if there are so
+    /// many, or if a build in flight made it later.
     pub(crate) levels: u32,
     /// Number of nodes.
     pub(crate) nodes: u32,
@@ -101,7 +101,7 @@ impl KeptTrees {
             return;
         }
         let cost = cost_of(header);
-        // Only builds that make a tree read the order of its triangles from the sort.
+        // Builds that make a tree read the order of its triangles from the sort.
         let is_kept = header.order_stride == 0;
         match state.made {
             Some(made) if is_kept => {
