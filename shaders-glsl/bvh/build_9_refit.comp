@@ -86,7 +86,8 @@ void main() {
     for (; place < end; place += invocations) {
         refit(bvh_scratch(build.structure, listed_word(place)), per_metre);
     }
-    if (level == 0u && invocation == 0u) {
+    // Without triangles the pool has no words for these, and the header from the host is right.
+    if (level == 0u && invocation == 0u && BVH_HEADER(build.structure).triangle_count > 0u) {
         BVH_HEADER(build.structure).root = bvh_scratch(build.structure, root_word());
         BVH_HEADER(build.structure).node_count = bvh_scratch(build.structure, node_count_word());
     }

@@ -75,8 +75,8 @@ void bvh_load_record(BvhRef s, uint record, out uvec2 words[5]) {
 
 // Reads six words of the scratch pool from an even place on, as a box; all of it must be within the pool.
 void bvh_load_box(BvhRef s, uint word, out vec3 lower, out vec3 upper) {
-    lower = uintBitsToFloat(uvec3(BVH_POOL(s, scratch)[word], BVH_POOL(s, scratch)[word + 1u], BVH_POOL(s, scratch)[word + 2u]));
-    upper = uintBitsToFloat(uvec3(BVH_POOL(s, scratch)[word + 3u], BVH_POOL(s, scratch)[word + 4u], BVH_POOL(s, scratch)[word + 5u]));
+    lower = bvh_scratch_point(s, word);
+    upper = bvh_scratch_point(s, word + 3u);
 }
 
 #endif

@@ -142,7 +142,8 @@ pub struct FormulaBytes {
     /// Bytes that only the build uses. With [`Builder::Sah`] 28 per triangle. With the others 16 per
     /// triangle, 1024 for every 256 triangles, 4 for every 1024 triangles, and 24 per union of four boxes
     /// (including unions of unions), each rounded up, or with [`Builder::Ploc`] and [`Builder::Refit`] in
-    /// place of the unions 28 per triangle; and for nodes of four 64 per triangle after the first.
+    /// place of the unions 28 per triangle, and 8 more with the latter; and for nodes of four 64 per triangle
+    /// after the first.
     pub scratch: u64,
 }
 
@@ -189,9 +190,13 @@ mod tests {
         let kinds =
             [Builder::Sah, Builder::Lbvh, Builder::Ploc, Builder::Trbvh, Builder::Refit].map(Config::new);
         let numbers = |config| {
-            [Children::Two, Children::Four].map(|children| Config { children: Some(children), ..config })
+            let made =
+                [Children::Two, Children::Four].map(|children| Config { children: Some(children), ..config });
+            made.into_iter().filter(|config: &Config| {
+                config.builder != Builder::Refit || config.made_children() == Children::Four
+            })
         };
-        for config in kinds.into_iter().flat_map(numbers).filter(|config| config.validate().is_ok()) {
+        for config in kinds.into_iter().flat_map(numbers) {
             for triangles in [1_u64, 2, 255, 256, 257, 12_345, 300_000] {
                 let sizes = plan(&config, triangles).expect("options are in range");
                 let nodes = most_nodes(config.made_children(), triangles);

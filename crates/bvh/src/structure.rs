@@ -255,7 +255,7 @@ impl Design for Passes {
         let extent = parts.extent();
         let triangles = extent.triangle_count;
         // A number of triangles that the device counts may differ in each build.
-        let is_fixed = parts.geometry.desc().count.is_none() && triangles > 0;
+        let is_fixed = parts.geometry.desc().count.is_none();
         self.kept = if parts.config.builder == Builder::Refit && is_fixed { self.trees.next() } else { None };
         let prepared = match parts.config.builder {
             // The triangles may move after a build, so a tree serves one build only.

@@ -12,7 +12,7 @@ pub(super) const ROWS: &[Row] = &[
     Row::exact("bvh-ploc-two", "bvh", &[("builder", "ploc"), ("children", "2")], Tier::Full, Cases::All),
     Row::exact("bvh-trbvh", "bvh", &[("builder", "trbvh")], Tier::Quick, Cases::All),
     Row::exact("bvh-trbvh-two", "bvh", &[("builder", "trbvh"), ("children", "2")], Tier::Full, Cases::All),
-    // The first build, on every case, is by Morton codes; only moving scenes have refitted builds.
+    // The first build, on every case, merges clusters; only moving scenes have builds that keep the tree.
     Row::exact("bvh-refit", "bvh", &[("builder", "refit")], Tier::Full, Cases::All),
     Row::exact("grid", "grid", &[], Tier::Quick, Cases::All),
     Row::exact("driver-rt", "driver-rt", &[], Tier::Quick, Cases::All),

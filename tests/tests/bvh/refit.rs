@@ -4,7 +4,9 @@
 use rasray_ads::{
     BoundsPass, BufferOffset, Counters, Geometry, GeometryDesc, Ray, Structure, TraceMode, Viewpoint,
 };
-use rasray_bvh::{Addressing, Builder, Bvh, Children, Chunks, Config, Contents, NodeOfFour, well_formed};
+use rasray_bvh::{
+    Addressing, Builder, Bvh, Children, Chunks, Config, Contents, Loads, NodeOfFour, well_formed,
+};
 use rasray_gpu::{BufferUsage, Timing};
 use rasray_tests::conformance::trace_in_rounds;
 use rasray_tests::harness::{Bench, bits};
@@ -105,7 +107,7 @@ impl Setup {
         if tree.config().builder == Builder::Refit {
             let told = contents.header.cost.map(f64::from);
             let told = told[0] / 2.0_f64.powi(32) + told[1];
-            assert!((told - cost).abs() < 1.0e-3 * cost, "{what}: the header has {told}, the tree {cost}");
+            assert!((told - cost).abs() < 1.0e-4 * cost, "{what}: the header has {told}, the tree {cost}");
         }
         let rays = rays_into(triangles);
         let (_, counters) = trace_in_rounds(&self.bench, tree, &rays, TraceMode::Closest, tree.rounds());
@@ -163,7 +165,8 @@ fn later_builds_find_only_the_boxes_anew() {
     let base = Config::new(Builder::Refit);
     let address = Config { addressing: Addressing::Address, ..base };
     let shared = Config { chunks: Some(Chunks::Shared), leaf: Some(1), ..base };
-    for config in [base, address, shared, Config { work_budget: Some(3), ..base }] {
+    let words = Config { loads: Some(Loads::Bits32), ..address };
+    for config in [base, address, shared, words, Config { work_budget: Some(3), ..base }] {
         let stage = Setup::new(&triangles);
         let mut tree = stage.tree(config);
         assert!(!stage.build(&mut tree), "the first build has no order to keep");
@@ -187,7 +190,7 @@ fn later_builds_find_only_the_boxes_anew() {
 
 #[test]
 fn small_trees_are_refitted() {
-    for (count, leaf) in [1_usize, 2, 3, 4, 5, 17].into_iter().flat_map(|count| [(count, 1), (count, 4)]) {
+    for (count, leaf) in [0_usize, 1, 2, 3, 4, 5, 17].into_iter().flat_map(|count| [(count, 1), (count, 4)]) {
         let triangles: Vec<Triangle> = scene().into_iter().take(count).collect();
         let stage = Setup::new(&triangles);
         let mut tree = stage.tree(Config { leaf: Some(leaf), ..Config::new(Builder::Refit) });
@@ -200,7 +203,9 @@ fn small_trees_are_refitted() {
         assert!(tree.status(0).expect("readable").complete, "{count}");
         let contents = tree.download(stage.bench.device()).expect("readable");
         well_formed(&contents).unwrap_or_else(|fault| panic!("{count} triangles: {fault}"));
-        stage.same_hits(&tree, &now, &format!("{count} triangles"));
+        if count > 0 {
+            stage.same_hits(&tree, &now, &format!("{count} triangles"));
+        }
     }
 }
 

@@ -32,6 +32,15 @@ impl Shown {
         Self { eye: centre, triangles, rays }
     }
 
+    /// The same triangles sheared a little, and rays in other directions.
+    pub fn sheared(&self, random: &mut Random) -> Self {
+        let by = random.between(-0.01, 0.01);
+        let place = |[x, y, z]: [f32; 3]| [x + by * (y - self.eye[1]), y, z];
+        let triangles = self.triangles.iter().map(|triangle| triangle.map(place)).collect();
+        let rays = self.rays.iter().map(|ray| Ray::new(place(ray.origin), random.direction())).collect();
+        Self { eye: self.eye, triangles, rays }
+    }
+
     pub fn bounds(&self) -> [[f32; 3]; 2] {
         let corners = || self.triangles.iter().flatten();
         let over = |with: fn(f32, f32) -> f32| {
